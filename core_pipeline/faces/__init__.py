@@ -1,0 +1,1 @@
+"""Faces: blendshape heads, read from files, deformed by weights, drawn off screen."""

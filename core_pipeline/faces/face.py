@@ -1,0 +1,71 @@
+"""A face: a neutral mesh and what each blendshape adds to it (section 3.1.2, figure 4)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class Camera:
+    """Where to look from at rest: turns about `target` at `distance`; degrees, and the mesh's own unit."""
+
+    target: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    distance: float = 5.0
+    yaw: float = 0.0
+    pitch: float = 0.0
+    fov: float = 24.0
+
+
+@dataclass(frozen=True, eq=False)
+class Face:
+    """A triangle mesh with blendshapes; +y up, +z to the front. Read-only.
+
+    positions      (n, 3) neutral
+    normals        (n, 3) of unit length
+    triangles      (m, 3) uint32
+    colours        (n, 4) linear RGB and, in the fourth place, how glossy the surface is (0…1)
+    shapes         names of the k blendshapes
+    deltas         (k, n, 3) added to the positions at weight 1
+    normal_deltas  (k, n, 3) added to the normals at weight 1
+    pose_map       pose → {shape: amount}; empty for a face whose shapes are the poses
+    parts          name → (first triangle, number of triangles), so that checks can tell teeth from skin
+    """
+
+    name: str
+    title: str
+    positions: Floats
+    normals: Floats
+    triangles: NDArray[np.uint32]
+    colours: Floats
+    shapes: tuple[str, ...]
+    deltas: Floats
+    normal_deltas: Floats
+    pose_map: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    parts: Mapping[str, tuple[int, int]] = field(default_factory=dict)
+    camera: Camera = Camera()
+
+    def mix(self, pose: str) -> Mapping[str, float]:
+        """The shapes that make up a pose, shape → amount; empty when this face cannot make it."""
+        if pose in self.pose_map:
+            return self.pose_map[pose]
+        return {pose: 1.0} if pose in self.shapes else {}
+
+    def retarget(self, poses: tuple[str, ...]) -> Floats:
+        """(poses, shapes) matrix: weights (f, poses) @ matrix gives shape amounts (f, shapes)."""
+        matrix = np.zeros((len(poses), len(self.shapes)), np.float32)
+        for row, pose in enumerate(poses):
+            for shape, amount in self.mix(pose).items():
+                if shape in self.shapes:
+                    matrix[row, self.shapes.index(shape)] = amount
+        return matrix
+
+    def deform(self, amounts: Floats) -> Floats:
+        """Positions (n, 3) at shape amounts (k,)."""
+        moved: Floats = self.positions + np.tensordot(amounts.astype(np.float32), self.deltas, 1)
+        return moved

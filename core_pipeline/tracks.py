@@ -1,0 +1,133 @@
+"""Tracks: every pose over the whole utterance, all on ONE long time axis.
+
+    pose 0               pose 1               pose 2
+    |‾\\/\\_/‾\\____       |__/\\____/‾\\__       |___/‾‾\\______
+    0        duration    stride               2·stride
+
+x = (time − start) + pose·stride, with a stride of one second more than the utterance, wider than any
+smoothing window. So each stage is one vectorised pass over one array, and poses never touch: every
+pose begins and ends at weight 0, and between two poses the long function is 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+#: Knots nearer than this (seconds) are one knot.
+NEAR = 1e-8
+#: A weight below this is exactly 0, so that "where the pose is active" is well defined.
+ZERO = 1e-9
+#: A knot nearer than this (weight) to the line between its neighbours is left out.
+COLLINEAR = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class Track:
+    """One pose: strictly rising times t (m,) in seconds, weights v (m,); straight between knots, 0 outside."""
+
+    t: Array
+    v: Array
+
+    def at(self, t: Array) -> Array:
+        """The weight at times t, any shape."""
+        return np.asarray(np.interp(t, self.t, self.v, left=0.0, right=0.0))
+
+
+@dataclass(frozen=True, eq=False)
+class Tracks(Mapping[str, Track]):
+    """One stage's result for all poses; `tracks["open"]` is a Track.
+
+    x, v      (m,) knots on the long axis
+    start     seconds, time of x = 0
+    duration  seconds of the utterance
+    """
+
+    poses: tuple[str, ...]
+    x: Array
+    v: Array
+    start: float
+    duration: float
+
+    @property
+    def stride(self) -> float:
+        """Distance of two poses on the long axis, in seconds."""
+        return self.duration + 1.0
+
+    @cached_property
+    def cuts(self) -> NDArray[np.intp]:
+        """(poses+1,) where each pose's knots begin in x and v."""
+        return self.x.searchsorted(np.arange(len(self.poses) + 1) * self.stride - 0.5)
+
+    def lane(self, pose: int) -> tuple[Array, Array]:
+        """Knots of one pose, still on the long axis."""
+        a, b = self.cuts[pose], self.cuts[pose + 1]
+        return self.x[a:b], self.v[a:b]
+
+    def with_knots(self, x: Array, v: Array) -> Tracks:
+        """The same utterance with other knots."""
+        return replace(self, x=x, v=v)
+
+    def __getitem__(self, pose: str) -> Track:
+        try:
+            p = self.poses.index(pose)
+        except ValueError:
+            raise KeyError(pose) from None
+        x, v = self.lane(p)
+        if not x.size:  # nothing moves this pose: 0 from the first to the last moment
+            ends = [self.start, self.start + self.duration] if self.duration else [self.start]
+            return Track(np.array(ends), np.zeros(len(ends)))
+        return Track(x - (p * self.stride - self.start), v)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.poses)
+
+    def __len__(self) -> int:
+        return len(self.poses)
+
+
+def pick(keep: Mask, x: Array, v: Array) -> tuple[Array, Array]:
+    """The knots at which `keep` holds. `take(nonzero)` beats boolean indexing four to one."""
+    k = keep.nonzero()[0]
+    return x.take(k), v.take(k)
+
+
+def apart(x: Array) -> Mask:
+    """Which of the sorted x are the first of a run of near-equal ones."""
+    keep = np.ones(x.size, bool)
+    np.greater(x[1:] - x[:-1], NEAR, out=keep[1:])
+    return keep
+
+
+def minimal(x: Array, v: Array) -> tuple[Array, Array]:
+    """The same function without collinear knots and without doubled zeros at either end.
+
+    The final spline's shape depends on the knots, so a stage must not leave any that mean nothing.
+    """
+    if x.size < 3:
+        return x, v
+    dx = x[1:] - x[:-1]
+    dv = v[1:] - v[:-1]
+    area = np.abs(dv[:-1] * dx[1:] - dv[1:] * dx[:-1])
+    keep = np.empty(x.size, bool)
+    keep[0], keep[-1] = v[1] > 0, v[-2] > 0
+    np.greater(area, COLLINEAR * (x[2:] - x[:-2]), out=keep[1:-1])
+    return pick(keep, x, v)
+
+
+def weave(x: Array, v: Array, keep: Mask, i: NDArray[np.intp], xc: Array, vc: Array) -> tuple[Array, Array]:
+    """The kept knots, with one new knot (xc, vc) after each knot i."""
+    xs = np.empty(2 * x.size)
+    vs = np.empty(2 * x.size)
+    ks = np.zeros(2 * x.size, bool)
+    xs[::2], vs[::2], ks[::2] = x, v, keep
+    j = 2 * i + 1
+    xs[j], vs[j], ks[j] = xc, vc, True
+    return pick(ks, xs, vs)
