@@ -59,7 +59,7 @@ class Curve:
 
     def at(self, t: ArrayLike) -> Array:
         """The control polygon's height at normalised times t, any shape."""
-        return np.asarray(np.interp(t, self.t, self.v))
+        return np.asarray(np.interp(np.asarray(t, dtype=np.float64), self.t, self.v))
 
     def with_key(self, t: float, v: float) -> Curve:
         """With one more key; ValueError when it comes nearer than MIN_GAP to another."""

@@ -26,7 +26,7 @@ TABLE_1: Mapping[str, str] = MappingProxyType(
     {phone: common for common, phones in _ROWS.items() for phone in phones.split()}
 )
 
-VOWELS = frozenset("ah aa ao eh er ih w ow aw oy ay".split())
+VOWELS = frozenset(["ah", "aa", "ao", "eh", "er", "ih", "w", "ow", "aw", "oy", "ay"])
 
 #: A short word for each English phone, as table 1 gives them.
 EXAMPLES: Mapping[str, str] = MappingProxyType(

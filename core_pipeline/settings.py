@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from types import MappingProxyType
 
 from .errors import UserError
@@ -106,16 +107,17 @@ class Settings:
                 return name
         return ""
 
-    def clashes(self, pose: str, poses: Sequence[str]) -> list[tuple[str, float]]:
-        """The poses before which `pose` gives way, with C: of higher priority, in `poses`, C below 2."""
+    @cached_property
+    def clashes(self) -> Mapping[str, tuple[tuple[str, float], ...]]:
+        """Pose → the poses before which it gives way, with C: of higher priority and C below 2."""
         rank = {p: i for i, p in enumerate(self.priorities)}
-        found: dict[str, float] = {}
+        found: dict[str, dict[str, float]] = {}
         for c in self.constraints:
-            for low, high in ((c.a, c.b), (c.b, c.a)):
-                if low == pose and high in poses and c.limit < UNCONSTRAINED and {low, high} <= rank.keys():
-                    if rank[high] > rank[low]:
-                        found[high] = min(c.limit, found.get(high, UNCONSTRAINED))
-        return list(found.items())
+            if {c.a, c.b} <= rank.keys() and c.limit < UNCONSTRAINED:
+                low, high = sorted((c.a, c.b), key=rank.__getitem__)
+                limits = found.setdefault(low, {})
+                limits[high] = min(c.limit, limits.get(high, UNCONSTRAINED))
+        return {low: tuple(limits.items()) for low, limits in found.items()}
 
 
 def _constraints(text: str) -> tuple[Constraint, ...]:

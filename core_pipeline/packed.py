@@ -1,0 +1,128 @@
+"""A curve set in flat arrays, so that the time-warp is one gather and no loop.
+
+Every curve is closed first: a key at 0 and at 1 where it does not reach 0 by itself, because a track
+must be a function that begins and ends at 0. The closing ramp lasts 1 ms INSIDE the bigram's span,
+which normalised time cannot say; such keys carry what the warp needs to place the ramp.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING, NamedTuple
+from weakref import WeakKeyDictionary
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .curves import Curve
+from .phonemes import SILENCE
+
+if TYPE_CHECKING:
+    from .curve_set import Bigram, CurveSet
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.intp]
+
+
+class ClosedKeys(NamedTuple):
+    """A closed curve's keys, all (m,).
+
+    s, v   normalised time and weight
+    ramp   +1 where a closing ramp rises to this key, −1 where one falls from it, else 0
+    room   the longest such ramp in normalised time: a third of the way to the next key
+    slope  weight per normalised time of the curve there, so that the ramp meets the curve ON it
+    """
+
+    s: Floats
+    v: Floats
+    ramp: Floats
+    room: Floats
+    slope: Floats
+
+
+_EMPTY = ClosedKeys(*(np.zeros(0) for _ in ClosedKeys._fields))
+_closed: WeakKeyDictionary[Curve, ClosedKeys] = WeakKeyDictionary()
+
+
+def closed(curve: Curve) -> ClosedKeys:
+    """The curve with closing keys; empty when it is 0 throughout. Cached, curves never change."""
+    keys = _closed.get(curve)
+    if keys is None:
+        keys = _closed[curve] = _close(curve)
+    return keys
+
+
+def _close(curve: Curve) -> ClosedKeys:
+    if not curve.v.any():
+        return _EMPTY
+    s, v = curve.t.tolist(), curve.v.tolist()
+    if v[0] > 0 and s[0] > 0:  # held flat before the first key
+        s.insert(0, 0.0)
+        v.insert(0, v[0])
+    if v[-1] > 0 and s[-1] < 1:
+        s.append(1.0)
+        v.append(v[-1])
+    opens, closes = v[0] > 0, v[-1] > 0
+    rows = [[a, b, 0.0, 0.0, 0.0] for a, b in zip(s, v, strict=True)]
+    if opens:
+        gap = s[1] - s[0]
+        rows[0][2:] = [1.0, gap / 3, (v[1] - v[0]) / gap]
+    if closes:
+        gap = s[-1] - s[-2]
+        rows[-1][2:] = [-1.0, gap / 3, (v[-1] - v[-2]) / gap]
+    if opens:
+        rows.insert(0, [0.0] * 5)
+    if closes:
+        rows.append([1.0, 0.0, 0.0, 0.0, 0.0])
+    return ClosedKeys(*np.array(rows).T)
+
+
+@dataclass(frozen=True, eq=False)
+class PackedSet:
+    """All closed keys of a curve set, one behind the other.
+
+    keys    of every (bigram, pose), concatenated
+    start   (poses, rows+1) where the keys of a pose of a bigram begin; row `rows` is the empty bigram
+    count   (poses, rows+1) how many there are
+    row_of  (phones+2, phones+2) bigram row of two phone numbers; `sil` and "unknown" come last
+    number  phone → number
+    """
+
+    poses: tuple[str, ...]
+    keys: ClosedKeys
+    start: Ints
+    count: Ints
+    row_of: Ints
+    number: dict[str, int]
+
+    @classmethod
+    def of(cls, curve_set: CurveSet) -> PackedSet:
+        """Pack a set; 441 bigrams take about a millisecond once their curves have been closed."""
+        number = {phone: i for i, phone in enumerate((*curve_set.phonemes, SILENCE))}
+        rows = len(curve_set.bigrams)
+        row_of = np.full((len(number) + 1, len(number) + 1), rows, np.intp)
+        poses = curve_set.poses
+        count = np.zeros((rows + 1, len(poses)), np.intp)
+        parts: list[NDArray[np.float64]] = [np.zeros((len(ClosedKeys._fields), 0))]
+        for row, ((first, second), bigram) in enumerate(curve_set.bigrams.items()):
+            if first in number and second in number:
+                row_of[number[first], number[second]] = row
+                sizes, keys = _bigram_block(bigram, poses)
+                count[row] = sizes
+                parts.append(keys)
+        start = np.cumsum(count).reshape(count.shape) - count
+        return cls(poses, ClosedKeys(*np.concatenate(parts, axis=1)), start.T.copy(), count.T.copy(), row_of, number)
+
+    def numbers(self, phones: tuple[str, ...]) -> Ints:
+        """Phone numbers (n,); an unknown phone gets the number that has no bigrams."""
+        unknown = len(self.number)
+        return np.array([self.number.get(p, unknown) for p in phones], np.intp)
+
+
+@lru_cache(maxsize=4096)
+def _bigram_block(bigram: Bigram, poses: tuple[str, ...]) -> tuple[Ints, NDArray[np.float64]]:
+    """Keys per pose, and all of them as columns; cached because an edit changes one bigram of 441."""
+    blocks = [closed(bigram.curves[pose]) if pose in bigram.curves else _EMPTY for pose in poses]
+    sizes = np.array([block.s.size for block in blocks], np.intp)
+    return sizes, np.concatenate([np.array(block) for block in blocks], axis=1) if blocks else np.zeros((5, 0))

@@ -1,0 +1,41 @@
+"""Blue: where two bigrams overlap, the larger curve is kept (section 3.2.1, figure 7).
+
+    even   /\\    /\\          blue  /\\  /\\
+    odd      \\/\\/  \\               /  \\/  \\_/\\     = max, with a knot where they cross
+
+The even bigrams' red curves are one function, the odd ones' another; their maximum is exact.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .timewarp import Warped
+from .tracks import NEAR, ZERO, Array, Tracks, apart, minimal, pick, weave
+
+
+def stitch(red: Warped) -> Tracks:
+    """The maximum of the (at most two) red curves at every moment, as one track per pose."""
+    x, v = _maximum(red.x, red.v, red.even)
+    tracks = Tracks(red.poses, x, v, red.start, red.duration)
+    return tracks.with_knots(*minimal(x, v))
+
+
+def _maximum(x: Array, v: Array, even: int) -> tuple[Array, Array]:
+    if not 0 < even < x.size:
+        return pick(apart(x), x, v) if x.size else (x, v)
+    xs = np.sort(x, kind="stable")  # two sorted runs: a merge
+    xs = xs.take(apart(xs).nonzero()[0])
+    a = np.interp(xs, x[:even], v[:even])
+    b = np.interp(xs, x[even:], v[even:])
+    d = a - b
+    top = np.maximum(a, b)
+    top[top < ZERO] = 0.0
+    i = (d[:-1] * d[1:] < 0).nonzero()[0]  # they cross between knots i and i+1
+    if i.size:
+        f = d[i] / (d[i] - d[i + 1])
+        width = xs[i + 1] - xs[i]
+        clear = np.minimum(f, 1 - f) * width > NEAR
+        i, f, width = i[clear], f[clear], width[clear]
+        xs, top = weave(xs, top, np.ones(xs.size, bool), i, xs[i] + f * width, a[i] + f * (a[i + 1] - a[i]))
+    return xs, top
