@@ -1,0 +1,1 @@
+"""The program: command line, document, session, and the window that joins the widgets."""

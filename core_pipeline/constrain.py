@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from .settings import Settings
 from .timewarp import RAMP
-from .tracks import NEAR, ZERO, Array, Tracks, apart, minimal, pick
+from .tracks import WIDTH, ZERO, Array, Tracks, apart, minimal
 
 #: The cap where the upper pose is not active; weights are at most 1.
 FREE = 1.0
@@ -83,7 +83,6 @@ def _lower_envelope(curves: list[tuple[Array, Array]]) -> tuple[Array, Array]:
     first = curves[0][0]
     x = np.sort(np.concatenate([xs for xs, _ in curves]), kind="stable")
     x = x[x.searchsorted(first[0]) : x.searchsorted(first[-1], side="right")]
-    x = x[apart(x)]
     values = np.array([np.interp(x, xs, vs) for xs, vs in curves])
     lowest = values.argmin(0)
     i = (lowest[1:] != lowest[:-1]).nonzero()[0]
@@ -94,17 +93,15 @@ def _lower_envelope(curves: list[tuple[Array, Array]]) -> tuple[Array, Array]:
         pair, k = (d0 * d1 < 0).nonzero()
         f = d0[pair, k] / (d0[pair, k] - d1[pair, k])
         left, width = x[i[k]], x[i[k] + 1] - x[i[k]]
-        clear = np.minimum(f, 1 - f) * width > NEAR
+        clear = np.minimum(f, 1 - f) * width > WIDTH
         crossing = (here[:, k] + f * (there[:, k] - here[:, k])).min(0)
         x = np.concatenate((x, (left + f * width)[clear]))
         order = x.argsort(kind="stable")
         x, v = x[order], np.concatenate((values.min(0), crossing[clear]))[order]
-        if len(curves) > 2:  # several may cross at one point
-            x, v = pick(apart(x), x, v)
     else:
         v = values.min(0)
     v[v < ZERO] = 0.0
-    return x, v
+    return apart(x, v)
 
 
 @cache

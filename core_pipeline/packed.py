@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 from weakref import WeakKeyDictionary
 
@@ -23,6 +24,10 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
+
+
+#: Keys nearer than this in normalised time are moved apart.
+GAP = 1e-6
 
 
 class ClosedKeys(NamedTuple):
@@ -63,6 +68,7 @@ def _close(curve: Curve) -> ClosedKeys:
     if v[-1] > 0 and s[-1] < 1:
         s.append(1.0)
         v.append(v[-1])
+    s = _spread(s)
     opens, closes = v[0] > 0, v[-1] > 0
     rows = [[a, b, 0.0, 0.0, 0.0] for a, b in zip(s, v, strict=True)]
     if opens:
@@ -76,6 +82,17 @@ def _close(curve: Curve) -> ClosedKeys:
     if closes:
         rows.append([1.0, 0.0, 0.0, 0.0, 0.0])
     return ClosedKeys(*np.array(rows).T)
+
+
+def _spread(s: list[float]) -> list[float]:
+    """Key times at least GAP apart: of a step that takes no time, no slope can be told."""
+    gap = min(GAP, 0.5 / len(s))
+    if all(b - a >= gap for a, b in pairwise(s)):
+        return s
+    room = gap * np.arange(len(s))
+    later = np.maximum.accumulate(np.array(s) - room) + room
+    spread: list[float] = np.minimum(later, 1 - room[::-1]).tolist()
+    return spread
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from .timewarp import Warped
-from .tracks import NEAR, ZERO, Array, Tracks, apart, minimal, pick, weave
+from .tracks import WIDTH, ZERO, Array, Tracks, apart, minimal, weave
 
 
 def stitch(red: Warped) -> Tracks:
@@ -23,19 +23,18 @@ def stitch(red: Warped) -> Tracks:
 
 def _maximum(x: Array, v: Array, even: int) -> tuple[Array, Array]:
     if not 0 < even < x.size:
-        return pick(apart(x), x, v) if x.size else (x, v)
+        return apart(x, np.where(v < ZERO, 0.0, v)) if x.size else (x, v)
     xs = np.sort(x, kind="stable")  # two sorted runs: a merge
-    xs = xs.take(apart(xs).nonzero()[0])
     a = np.interp(xs, x[:even], v[:even])
     b = np.interp(xs, x[even:], v[even:])
     d = a - b
     top = np.maximum(a, b)
-    top[top < ZERO] = 0.0
     i = (d[:-1] * d[1:] < 0).nonzero()[0]  # they cross between knots i and i+1
     if i.size:
         f = d[i] / (d[i] - d[i + 1])
         width = xs[i + 1] - xs[i]
-        clear = np.minimum(f, 1 - f) * width > NEAR
+        clear = np.minimum(f, 1 - f) * width > WIDTH
         i, f, width = i[clear], f[clear], width[clear]
         xs, top = weave(xs, top, np.ones(xs.size, bool), i, xs[i] + f * width, a[i] + f * (a[i + 1] - a[i]))
-    return xs, top
+    top[top < ZERO] = 0.0
+    return apart(xs, top)

@@ -23,6 +23,9 @@ Mask = NDArray[np.bool_]
 
 #: Knots nearer than this (seconds) are one knot.
 NEAR = 1e-8
+#: … unless their weights differ by more than this: then they are a step, at least WIDTH seconds wide.
+STEP = 1e-6
+WIDTH = 1e-9
 #: A weight below this is exactly 0, so that "where the pose is active" is well defined.
 ZERO = 1e-9
 #: A knot nearer than this (weight) to the line between its neighbours is left out.
@@ -99,11 +102,24 @@ def pick(keep: Mask, x: Array, v: Array) -> tuple[Array, Array]:
     return x.take(k), v.take(k)
 
 
-def apart(x: Array) -> Mask:
-    """Which of the sorted x are the first of a run of near-equal ones."""
+def apart(x: Array, v: Array) -> tuple[Array, Array]:
+    """One knot of each run of near-equal ones, x being sorted; of a step, however steep, both ends.
+
+    A run that touches 0 becomes 0, so that a pose still ends at weight 0.
+    """
+    gap = x[1:] - x[:-1]
     keep = np.ones(x.size, bool)
-    np.greater(x[1:] - x[:-1], NEAR, out=keep[1:])
-    return keep
+    np.greater(gap, NEAR, out=keep[1:])
+    keep[1:] |= np.abs(v[1:] - v[:-1]) > STEP
+    k = keep.nonzero()[0]
+    if k.size < x.size:
+        low = np.minimum.reduceat(v, k)
+        x, v = x.take(k), v.take(k)
+        v[low < ZERO] = 0.0
+    if (x[1:] - x[:-1] < WIDTH).any():
+        room = WIDTH * np.arange(x.size)
+        x = np.maximum.accumulate(x - room) + room
+    return x, v
 
 
 def minimal(x: Array, v: Array) -> tuple[Array, Array]:
@@ -119,6 +135,8 @@ def minimal(x: Array, v: Array) -> tuple[Array, Array]:
     keep = np.empty(x.size, bool)
     keep[0], keep[-1] = v[1] > 0, v[-2] > 0
     np.greater(area, COLLINEAR * (x[2:] - x[:-2]), out=keep[1:-1])
+    moves = v > 0  # where a pose begins or ends to move is never left out, however gently it does
+    keep[1:-1] |= (moves[:-2] != moves[2:]) & ~moves[1:-1]
     return pick(keep, x, v)
 
 

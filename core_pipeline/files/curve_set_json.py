@@ -57,8 +57,8 @@ class HeadRecord(msgspec.Struct):
     name: str = "Untitled"
     language: str = "en"
     base: str | None = None
-    phonemes: list[str] = list(COMMON)
-    poses: list[str] = list(FACEFX)
+    phonemes: list[str] = msgspec.field(default_factory=lambda: list(COMMON))
+    poses: list[str] = msgspec.field(default_factory=lambda: list(FACEFX))
     phoneme_map: dict[str, str] | None = None
 
 

@@ -13,6 +13,10 @@ class DoubledNameError(ValueError):
     """An object names the same thing twice."""
 
 
+class NotFiniteError(ValueError):
+    """NaN or Infinity, which JSON does not have."""
+
+
 def decode_json(data: bytes, place: str) -> dict[str, Any]:
     """The top object of a JSON file; UserError names place, line and cure.
 
@@ -30,8 +34,10 @@ def decode_json(data: bytes, place: str) -> dict[str, Any]:
         raise UserError(f"{place} names {error} twice in one object: remove one of the two.") from error
     except RecursionError as error:
         raise UserError(f"{place} is nested too deeply to be one of our files: choose another.") from error
-    except ValueError as error:  # NaN, Infinity, an integer of thousands of digits
+    except NotFiniteError as error:
         raise UserError(f"{place} holds {error}: write a finite number there.") from error
+    except ValueError as error:
+        raise UserError(f"{place} holds a number of thousands of digits: write a shorter one.") from error
     if "\\ud" in text.lower():  # half a surrogate pair could be read but never written again
         try:
             json.dumps(value, ensure_ascii=False).encode("utf-8")
@@ -64,4 +70,4 @@ def _no_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _no_constant(name: str) -> float:
-    raise ValueError(name)
+    raise NotFiniteError(name)

@@ -1,0 +1,163 @@
+"""The command line. Nothing here imports Qt; only the editor and `screenshot` do, when they run."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from core_pipeline.errors import UserError
+from core_pipeline.settings import PRESETS, SPLINES
+
+DEMO_SENTENCE = "Fat cats often find fish."
+COMMANDS = ("bake", "check", "screenshot", "render")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run `lipstitch`; the exit code: 0, 1 for problems `check` found, 2 for anything a user must mend."""
+    arguments = list(sys.argv[1:] if arguments is None else arguments)
+    try:
+        refuse_name_clash()
+        options = _parser().parse_args(
+            arguments if arguments[:1] and _is_command(arguments[0]) else ["edit", *arguments]
+        )
+        code: int = options.run(options)
+    except UserError as error:
+        print(f"lipstitch: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        return 130
+    except BrokenPipeError:  # `lipstitch check … | head`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    return code
+
+
+def refuse_name_clash() -> None:
+    """UserError when `widgets` or `core_pipeline` of another program stand before ours on the path."""
+    import core_pipeline
+
+    ours = Path(__file__).resolve().parent.parent
+    found = Path(core_pipeline.__file__ or "").resolve().parent.parent
+    if found != ours:
+        raise UserError(
+            f"Two programs get in each other's way: core_pipeline comes from {found}, app from {ours}. "
+            "Install Lipstitch in an environment of its own."
+        )
+
+
+def has_display() -> bool:
+    """Whether a window could be shown."""
+    if not sys.platform.startswith("linux"):
+        return True
+    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY") or os.environ.get("QT_QPA_PLATFORM"))
+
+
+def _is_command(word: str) -> bool:
+    return word in COMMANDS or word in ("-h", "--help", "--version")
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="lipstitch",
+        description="An editor for phone-bigram lip sync. Without a command the editor opens.",
+        epilog='Example: lipstitch bake "Fat cats often find fish" --out weights.json',
+    )
+    parser.add_argument("--version", action="version", version=f"lipstitch {_version()}")
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+
+    edit = commands.add_parser("edit", help=argparse.SUPPRESS, description="Open the editor.", prog="lipstitch")
+    edit.add_argument("file", nargs="?", type=Path, help="a curve set to open")
+    edit.add_argument("--sentence", help="what to type first")
+    edit.set_defaults(run=_edit)
+
+    bake = commands.add_parser("bake", help="turn a sentence or a schedule into weights per frame")
+    _speech_options(bake, text_optional=True)
+    bake.add_argument("--schedule", type=Path, metavar="FILE", help="phones and times as JSON, instead of a text")
+    bake.add_argument("--out", type=Path, metavar="FILE", help="weights, .json or .csv")
+    bake.add_argument("--stages", type=Path, metavar="FILE", help="all five stages, .json")
+    bake.add_argument("--schedule-out", type=Path, metavar="FILE", help="the schedule that was used, .json")
+    bake.add_argument("--sound", type=Path, metavar="FILE", help="the sound of the sentence, .wav")
+    bake.add_argument("--spline", choices=SPLINES, help="default: the curve set's own")
+    bake.add_argument("--fps", type=float, default=60, help="frames per second, 1 to 1000 (default 60)")
+    bake.add_argument("--no-snap", action="store_true", help="do not put each peak on its nearest frame")
+    bake.set_defaults(run=_bake)
+
+    check = commands.add_parser("check", help="validate a curve set: 0 when good, 1 with a line per problem")
+    check.add_argument("file", type=Path, help="a curve set, .json")
+    check.set_defaults(run=_check)
+
+    render = commands.add_parser("render", help="draw the face saying a sentence, frame by frame")
+    _speech_options(render)
+    render.add_argument("--out", type=Path, required=True, metavar="FOLDER", help="folder for the PNG frames")
+    render.add_argument("--fps", type=float, default=30, help="frames per second (default 30)")
+    render.add_argument("--size", type=_size, default=(512, 512), metavar="WxH", help="pixels (default 512x512)")
+    render.set_defaults(run=_render)
+
+    shot = commands.add_parser("screenshot", help="draw the editor's window off screen, in mid-sentence")
+    _speech_options(shot)
+    shot.add_argument("--out", type=Path, required=True, metavar="FILE", help="the picture, .png")
+    shot.add_argument("--size", type=_size, default=(1600, 1000), metavar="WxH", help="pixels (default 1600x1000)")
+    shot.set_defaults(run=_screenshot)
+    return parser
+
+
+def _speech_options(parser: argparse.ArgumentParser, *, text_optional: bool = False) -> None:
+    parser.add_argument("text", nargs="?" if text_optional else None, help="what to say")
+    parser.add_argument("--curves", type=Path, metavar="FILE", help="curve set (default: our English set)")
+    parser.add_argument("--preset", choices=tuple(PRESETS), help="pipeline settings (default: the curve set's own)")
+    parser.add_argument("--voice", default="en-us", help="espeak-ng voice (default en-us)")
+
+
+def _size(text: str) -> tuple[int, int]:
+    """ "1600x1000" → (1600, 1000)."""
+    width, _, height = text.lower().partition("x")
+    if not (width.isdigit() and height.isdigit() and 64 <= int(width) <= 8192 and 64 <= int(height) <= 8192):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a size such as 1600x1000 (64 to 8192 each)")
+    return int(width), int(height)
+
+
+def _version() -> str:
+    from importlib.metadata import PackageNotFoundError, version
+
+    try:
+        return version("lipstitch")
+    except PackageNotFoundError:
+        return "(not installed)"
+
+
+def _edit(options: argparse.Namespace) -> int:
+    if not has_display():
+        from .batch import demo
+
+        return demo(options.sentence or DEMO_SENTENCE, options.file)
+    from .editor import run_editor
+
+    return run_editor(options.file, options.sentence)
+
+
+def _bake(options: argparse.Namespace) -> int:
+    from .batch import bake
+
+    return bake(options)
+
+
+def _check(options: argparse.Namespace) -> int:
+    from .batch import check
+
+    return check(options.file)
+
+
+def _render(options: argparse.Namespace) -> int:
+    from .batch import render
+
+    return render(options)
+
+
+def _screenshot(options: argparse.Namespace) -> int:
+    from .batch import load_curves
+    from .screenshot import screenshot
+
+    return screenshot(options.text, load_curves(options), options.out, options.size, options.voice)

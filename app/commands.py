@@ -1,0 +1,62 @@
+"""Every change of data, as one undo step per gesture.
+
+No child commands (they crash PySide6) and no mergeWith (it leaks wrappers): nudges are merged by the
+document, which extends the newest command.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from PySide6.QtGui import QUndoCommand
+
+from core_pipeline.curve_set import Bigram
+from core_pipeline.phonemes import Pair
+from core_pipeline.settings import Settings
+
+
+class EditBigram(QUndoCommand):
+    """One bigram before and after; undo brings the very same object back. None means there was none."""
+
+    def __init__(
+        self,
+        apply: Callable[[Pair, Bigram | None], None],
+        pair: Pair,
+        before: Bigram | None,
+        after: Bigram | None,
+        label: str,
+    ) -> None:
+        super().__init__(label)
+        self._apply = apply
+        self.pair = pair
+        self.before = before
+        self.after = after
+        self.label = label
+
+    def redo(self) -> None:
+        """Put the new bigram in place."""
+        self._apply(self.pair, self.after)
+
+    def undo(self) -> None:
+        """Put the old bigram back."""
+        self._apply(self.pair, self.before)
+
+
+class ChangeSettings(QUndoCommand):
+    """The pipeline's settings before and after."""
+
+    def __init__(
+        self, apply: Callable[[Settings | None], None], before: Settings | None, after: Settings, label: str
+    ) -> None:
+        super().__init__(label)
+        self._apply = apply
+        self.before = before
+        self.after = after
+
+    def redo(self) -> None:
+        """Use the new settings."""
+        self._apply(self.after)
+
+    def undo(self) -> None:
+        """Use the old settings again."""
+        self._apply(self.before)

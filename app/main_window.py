@@ -1,0 +1,191 @@
+"""The window: builds widgets, docks, toolbar and status bar, and nothing else. Wiring brings it to life."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QCloseEvent, QKeyEvent, QShowEvent
+from PySide6.QtWidgets import (
+    QDockWidget,
+    QHBoxLayout,
+    QLabel,
+    QMainWindow,
+    QScrollArea,
+    QSizePolicy,
+    QSplitter,
+    QToolBar,
+    QVBoxLayout,
+    QWidget,
+)
+
+from widgets.bigram_picker import BigramPicker
+from widgets.bigram_transport import BigramTransport
+from widgets.canvas_header import CanvasHeader
+from widgets.curve_canvas import CurveCanvas
+from widgets.face_view import FaceView
+from widgets.pose_list import PoseList
+from widgets.sentence_bar import SentenceBar
+from widgets.settings_panel import SettingsPanel
+from widgets.stage_panel import StagePanel
+from widgets.transport import Transport
+from widgets.weak_list import WeakList
+from widgets.weights_bars import WeightsBars
+
+from .actions import Actions
+from .document import Document
+
+_Area = Qt.DockWidgetArea
+
+
+class MainWindow(QMainWindow):
+    """The editor's window. `may_close` is asked before it closes.
+
+    play_wanted()  Space, where nothing that has the focus wants it
+    """
+
+    play_wanted = Signal()
+
+    def __init__(self, document: Document) -> None:
+        super().__init__()
+        self.setObjectName("main window")
+        self.setWindowTitle("Lipstitch")
+        self.setDockOptions(QMainWindow.DockOption.AllowTabbedDocks | QMainWindow.DockOption.AllowNestedDocks)
+        self.setCorner(Qt.Corner.BottomLeftCorner, _Area.BottomDockWidgetArea)
+        self.setCorner(Qt.Corner.BottomRightCorner, _Area.BottomDockWidgetArea)
+        self._sized = False
+        self.may_close: Callable[[], bool] = lambda: True
+
+        self.picker = BigramPicker()
+        self.weak_list = WeakList()
+        self.header = CanvasHeader()
+        self.bigram_transport = BigramTransport()
+        self.pose_list = PoseList()
+        self.canvas = CurveCanvas()
+        self.face_view = FaceView()
+        self.weights = WeightsBars()
+        self.settings_panel = SettingsPanel()
+        self.stage_panel = StagePanel()
+        self.transport = Transport()
+        self.sentence_bar = SentenceBar()
+
+        self.actions_ = Actions(self, document.undo_stack)
+        self._toolbar()
+        self._centre()
+        self._docks()
+        self._status()
+        self.setMinimumSize(900, 560)
+        self.resize(1600, 1000)
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Ask first."""
+        if self.may_close():
+            event.accept()
+        else:
+            event.ignore()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Space plays the sentence."""
+        if event.key() == Qt.Key.Key_Space and not event.isAutoRepeat():
+            self.play_wanted.emit()
+        else:
+            super().keyPressEvent(event)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Give the docks their first sizes once the window has its own."""
+        super().showEvent(event)
+        if not self._sized:
+            self._sized = True
+            self.default_layout()
+
+    def default_layout(self) -> None:
+        """The docks' sizes for this window's size."""
+        width, height = self.width(), self.height()
+        left, right = min(420, width // 4), min(350, width // 4)
+        self.resizeDocks([self.bigrams_dock, self.preview_dock], [left, right], Qt.Orientation.Horizontal)
+        self.resizeDocks([self.stages_dock], [int(height * 0.34)], Qt.Orientation.Vertical)
+        upper = int(height * 0.58)
+        self.resizeDocks(
+            [self.preview_dock, self.weights_dock], [upper * 3 // 5, upper * 2 // 5], Qt.Orientation.Vertical
+        )
+
+    def _toolbar(self) -> None:
+        bar = QToolBar(self.tr("Sentence"))
+        bar.setObjectName("sentence bar")
+        bar.setMovable(False)
+        bar.setContextMenuPolicy(Qt.ContextMenuPolicy.PreventContextMenu)
+        bar.addAction(self.actions_.undo)
+        bar.addAction(self.actions_.redo)
+        bar.addSeparator()
+        bar.addWidget(self.transport)
+        self.sentence_bar.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
+        bar.addWidget(self.sentence_bar)
+        self.addToolBar(bar)
+
+    def _centre(self) -> None:
+        head = QWidget()
+        row = QHBoxLayout(head)
+        row.setContentsMargins(0, 0, 8, 0)
+        row.setSpacing(6)
+        row.addWidget(self.header, 1)
+        row.addWidget(self.bigram_transport)
+        body = QSplitter(Qt.Orientation.Horizontal)
+        body.setHandleWidth(3)
+        body.addWidget(self.pose_list)
+        body.addWidget(self.canvas)
+        body.setStretchFactor(0, 0)
+        body.setStretchFactor(1, 1)
+        body.setChildrenCollapsible(False)
+        centre = QWidget()
+        column = QVBoxLayout(centre)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addWidget(head)
+        column.addWidget(body, 1)
+        centre.setMinimumSize(360, 180)
+        self.setCentralWidget(centre)
+
+    def _docks(self) -> None:
+        bigrams = QSplitter(Qt.Orientation.Vertical)
+        bigrams.addWidget(self.picker)
+        bigrams.addWidget(self.weak_list)
+        bigrams.setStretchFactor(0, 3)
+        bigrams.setStretchFactor(1, 1)
+        bigrams.setChildrenCollapsible(False)
+        settings = QScrollArea()
+        settings.setWidgetResizable(True)
+        settings.setFrameShape(QScrollArea.Shape.NoFrame)
+        settings.setWidget(self.settings_panel)
+        self.bigrams_dock = self._dock(self.tr("Bigrams"), bigrams, _Area.LeftDockWidgetArea)
+        self.preview_dock = self._dock(self.tr("Preview"), self.face_view, _Area.RightDockWidgetArea)
+        self.weights_dock = self._dock(self.tr("Pose weights"), self.weights, _Area.RightDockWidgetArea)
+        self.settings_dock = self._dock(self.tr("Pipeline settings"), settings, _Area.RightDockWidgetArea)
+        self.stages_dock = self._dock(self.tr("Pipeline stages"), self.stage_panel, _Area.BottomDockWidgetArea)
+        self.tabifyDockWidget(self.weights_dock, self.settings_dock)
+        self.weights_dock.raise_()
+        menu = self.actions_.view_menu
+        menu.addSeparator()
+        for dock in (self.bigrams_dock, self.preview_dock, self.weights_dock, self.settings_dock, self.stages_dock):
+            menu.addAction(dock.toggleViewAction())
+
+    def _dock(self, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
+        dock = QDockWidget(title)
+        dock.setObjectName(title)
+        dock.setWidget(widget)
+        dock.setFeatures(
+            QDockWidget.DockWidgetFeature.DockWidgetMovable | QDockWidget.DockWidgetFeature.DockWidgetClosable
+        )
+        self.addDockWidget(area, dock)
+        return dock
+
+    def _status(self) -> None:
+        self.selection_label = QLabel()
+        self.missing_label = QLabel()
+        self.timing_label = QLabel()
+        self.saved_label = QLabel()
+        self.selection_label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        bar = self.statusBar()
+        bar.setSizeGripEnabled(False)
+        bar.addWidget(self.selection_label, 1)
+        for label in (self.missing_label, self.timing_label, self.saved_label):
+            bar.addPermanentWidget(label)

@@ -1,0 +1,225 @@
+"""What the face shows: the sentence at a moment, or one bigram alone, seen from where the user turned it."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtGui import QImage
+
+from core_pipeline.faces.face import Face
+from core_pipeline.faces.view import View
+from core_pipeline.phonemes import Pair
+
+from .audio_output import AudioOutput
+from .player import Player
+from .render_worker import RenderWorker
+from .session import Session
+
+#: A bigram plays over this long by default, in seconds (two phones of average length).
+BIGRAM_SECONDS = 0.4
+
+
+class Preview(QObject):
+    """Joins the two players, the session's weights and the renderer.
+
+    weights_changed(array)     (poses,) what the face shows now
+    bigram_moment(float|None)  normalised time of the open bigram, while it is shown
+    sentence_moment(float)     seconds
+    frame_ready(QImage)        a drawn face
+    failed(str)                why no face can be drawn
+    """
+
+    weights_changed = Signal(object)
+    bigram_moment = Signal(object)
+    sentence_moment = Signal(float)
+    frame_ready = Signal(QImage)
+    failed = Signal(str)
+
+    def __init__(self, session: Session, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._session = session
+        self.output = AudioOutput(self)
+        self.player = Player(self.output, parent=self)
+        self.bigram_player = Player(parent=self)
+        self.bigram_player.set_utterance(BIGRAM_SECONDS, None)
+        self.bigram_player.set_looping(True)
+        self.pair: Pair | None = None
+        self._bigram_time: float | None = None  # normalised; None: the sentence is shown
+        self._size = (512, 512)
+        self._face: Face | None = None
+        self._view = View()
+        self._matrix: NDArray[np.float32] | None = None
+        self._ms: list[float] = []
+        self.worker = RenderWorker(self)
+        self.worker.frame.connect(self._frame)
+        self.worker.failed.connect(self.failed)
+        self._turn = QTimer(self)  # many causes in one turn of the event loop, one picture
+        self._turn.setSingleShot(True)
+        self._turn.setInterval(0)
+        self._turn.timeout.connect(self._show)
+        session.stages_changed.connect(self.refresh)
+        self.player.time_changed.connect(self._sentence_time)
+        self.bigram_player.time_changed.connect(self._bigram_time_changed)
+
+    def start(self) -> None:
+        """Start drawing, and look for a loudspeaker."""
+        self.output.open()
+        self.worker.start()
+        self.refresh()
+
+    def stop(self) -> None:
+        """Stop playing and drawing; waits for the thread."""
+        self.player.pause()
+        self.bigram_player.pause()
+        self.output.close()
+        self.worker.stop()
+
+    # ── what is shown ────────────────────────────────────────────────────────────────────────────
+
+    def set_face(self, face: Face) -> None:
+        """Show another character from where it wants to be seen."""
+        self._face = face
+        self._view = View.of(face.camera)
+        self._matrix = None
+        self.worker.set_face(face)
+        self.refresh()
+
+    @property
+    def face(self) -> Face | None:
+        """The character shown."""
+        return self._face
+
+    @property
+    def shows_bigram(self) -> bool:
+        """Whether the open bigram is shown alone, not the sentence."""
+        return self._bigram_time is not None
+
+    def show_sentence(self) -> None:
+        """Show the sentence at the player's time."""
+        if self._bigram_time is not None:
+            self._bigram_time = None
+            self.bigram_player.pause()
+            self.bigram_moment.emit(None)
+        self.refresh()
+
+    def show_bigram(self, s: float) -> None:
+        """Show the open bigram alone at normalised time s."""
+        self.player.pause()
+        self._bigram_time = s
+        self.bigram_moment.emit(s)
+        self.refresh()
+
+    def set_pair(self, pair: Pair | None) -> None:
+        """The bigram that is open."""
+        self.pair = pair
+        if pair is None:
+            self.show_sentence()
+        self.refresh()
+
+    def toggle_sentence(self) -> None:
+        """Play or pause the sentence; from the start when it is at its end."""
+        if self.player.playing:
+            self.player.pause()
+            return
+        self.show_sentence()
+        if self.player.time >= self.player.duration - 1e-3:
+            self.player.seek(0.0)
+        self.player.play()
+
+    def toggle_bigram(self) -> None:
+        """Play or stop the open bigram alone."""
+        if self.bigram_player.playing:
+            self.bigram_player.pause()
+            self.show_sentence()
+        elif self.pair is not None:
+            self.player.pause()
+            self.bigram_player.seek(0.0)
+            self.bigram_player.play()
+
+    def set_bigram_length(self, seconds: float) -> None:
+        """How long the open bigram takes when it is played alone."""
+        playing = self.bigram_player.playing
+        self.bigram_player.set_utterance(seconds, None)
+        if playing:
+            self.bigram_player.play()
+
+    def scrub(self, seconds: float) -> None:
+        """Show the sentence at another moment."""
+        self.show_sentence()
+        self.player.seek(seconds)
+
+    # ── camera ───────────────────────────────────────────────────────────────────────────────────
+
+    def orbit(self, dx: float, dy: float) -> None:
+        """Turn the face by a drag in pixels."""
+        self._view = self._view.orbited(dx, dy)
+        self.refresh()
+
+    def zoom(self, steps: float) -> None:
+        """Come nearer by notches of the wheel."""
+        self._view = self._view.zoomed(steps)
+        self.refresh()
+
+    def pan(self, dx: float, dy: float) -> None:
+        """Shift the face by a drag in pixels."""
+        self._view = self._view.panned(dx, dy, self._size[1])
+        self.refresh()
+
+    def reset_view(self) -> None:
+        """See the face from the front again."""
+        if self._face is not None:
+            self._view = View.of(self._face.camera)
+            self.refresh()
+
+    def resize(self, width: int, height: int) -> None:
+        """Draw for a view of this many pixels."""
+        self._size = (max(width, 16), max(height, 16))
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Draw again at the next turn of the event loop."""
+        if not self._turn.isActive():
+            self._turn.start()
+
+    @property
+    def milliseconds(self) -> float:
+        """Median drawing time of the last frames; 0 before the first."""
+        return float(np.median(self._ms)) if self._ms else 0.0
+
+    @property
+    def frame_size(self) -> tuple[int, int]:
+        """Pixels of a frame, (width, height)."""
+        return self._size
+
+    def _sentence_time(self, seconds: float) -> None:
+        self.sentence_moment.emit(seconds)
+        if self._bigram_time is None:
+            self._show()
+
+    def _bigram_time_changed(self, seconds: float) -> None:
+        if not self.bigram_player.playing:
+            return
+        self._bigram_time = min(seconds / max(self.bigram_player.duration, 1e-6), 1.0)
+        self.bigram_moment.emit(self._bigram_time)
+        self._show()
+
+    def _show(self) -> None:
+        self._turn.stop()
+        if self._bigram_time is not None and self.pair is not None:
+            seconds = self._bigram_time
+            weights = self._session.bigram_weights_at(self.pair, self._bigram_time)
+        else:
+            seconds = self.player.time
+            weights = self._session.weights_at(seconds)
+        self.weights_changed.emit(weights)
+        if self._face is None:
+            return
+        poses = self._session.curve_set.poses
+        if self._matrix is None or self._matrix.shape[0] != len(poses):
+            self._matrix = self._face.retarget(poses)
+        self.worker.request(weights.astype(np.float32) @ self._matrix, self._view, self._size, seconds)
+
+    def _frame(self, image: QImage, _seconds: float, milliseconds: float) -> None:
+        self._ms = [*self._ms[-29:], milliseconds]
+        self.frame_ready.emit(image)

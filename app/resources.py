@@ -1,0 +1,27 @@
+"""Where the files that ship with Lipstitch are: beside the code in a checkout, inside the package when installed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from core_pipeline.errors import UserError
+
+_HERE = Path(__file__).resolve().parent
+
+
+def assets() -> Path:
+    """The assets folder; UserError when the installation is incomplete."""
+    for folder in (_HERE / "_assets", _HERE.parent / "assets"):
+        if folder.is_dir():
+            return folder
+    raise UserError(f"The assets folder is missing beside {_HERE}: install Lipstitch again.")
+
+
+def english_curves() -> Path:
+    """The shipped English curve set."""
+    return assets() / "curves" / "english.json"
+
+
+def face_folder(name: str = "toon") -> Path:
+    """One of our own characters."""
+    return assets() / "faces" / name

@@ -1,0 +1,108 @@
+"""The session: sentence, curves and settings in; stages and weights out, once per turn of the event loop."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import QObject, QTimer, Signal
+
+from core_pipeline import pipeline
+from core_pipeline.curve_set import Bigram, CurveSet
+from core_pipeline.curves import Curve
+from core_pipeline.phonemes import Pair
+from core_pipeline.pipeline import Stages
+from core_pipeline.speech.utterance import Utterance
+from core_pipeline.spline import interpolate
+from core_pipeline.weights import sample
+
+
+class Session(QObject):
+    """What the pipeline makes of the present sentence with the present curves.
+
+    stages_changed(Stages | None)  recomputed, after any number of changes in one turn
+    """
+
+    stages_changed = Signal(object)
+
+    def __init__(self, curve_set: CurveSet, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._curve_set = curve_set
+        self._preview: tuple[Pair, Bigram] | None = None
+        self.utterance: Utterance | None = None
+        self.stages: Stages | None = None
+        self.pipeline_ms = 0.0
+        self._turn = QTimer(self)
+        self._turn.setSingleShot(True)
+        self._turn.setInterval(0)
+        self._turn.timeout.connect(self.recompute)
+
+    @property
+    def curve_set(self) -> CurveSet:
+        """The set as it sounds now: with the gesture that is under way, if any."""
+        if self._preview is None:
+            return self._curve_set
+        return self._curve_set.with_bigram(*self._preview)
+
+    def set_curve_set(self, curve_set: CurveSet) -> None:
+        """Use another set, or the same with an edit; a gesture's preview ends."""
+        self._curve_set = curve_set
+        self._preview = None
+        self._turn.start()
+
+    def set_preview(self, pair: Pair, curves: Mapping[str, Curve | None] | None) -> None:
+        """Show a gesture while it lasts, without touching the document; None ends it."""
+        if curves is None:
+            self._preview = None
+        else:
+            bigram = self._curve_set.bigrams.get(pair, Bigram())
+            for pose, curve in curves.items():
+                bigram = bigram.with_curve(pose, curve)
+            self._preview = (pair, bigram)
+        self._turn.start()
+
+    def set_utterance(self, utterance: Utterance | None) -> None:
+        """Say something else."""
+        self.utterance = utterance
+        self._turn.start()
+
+    def recompute(self) -> None:
+        """Run the pipeline now; otherwise it runs by itself at the next turn of the event loop."""
+        self._turn.stop()
+        if self.utterance is None:
+            self.stages = None
+        else:
+            curve_set = self.curve_set
+            _ = curve_set.packed  # not the pipeline's cost
+            start = time.perf_counter()
+            self.stages = pipeline.run(self.utterance.schedule, curve_set)
+            self.pipeline_ms = (time.perf_counter() - start) * 1e3
+        self.stages_changed.emit(self.stages)
+
+    def weights_at(self, seconds: float) -> NDArray[np.float64]:
+        """(poses,) weights of the sentence at a moment; zeros without a sentence."""
+        if self.stages is None:
+            return np.zeros(len(self._curve_set.poses))
+        spline = self._curve_set.effective_settings.spline
+        weights: NDArray[np.float64] = sample(self.stages.magenta, spline, seconds)[0]
+        return weights
+
+    def bigram_weights_at(self, pair: Pair, s: float) -> NDArray[np.float64]:
+        """(poses,) weights of one bigram alone at normalised time s."""
+        curve_set = self.curve_set
+        spline = curve_set.effective_settings.spline
+        weights = np.zeros(len(curve_set.poses))
+        bigram = curve_set.bigrams.get(pair)
+        if bigram is not None:
+            for pose, curve in bigram.curves.items():
+                weights[curve_set.poses.index(pose)] = interpolate(curve.t, curve.v, spline, s)
+        return np.clip(weights, 0.0, 1.0)
+
+    def used(self) -> dict[Pair, int]:
+        """Bigram → how often the sentence has it."""
+        counts: dict[Pair, int] = {}
+        for pair in self.stages.schedule.pairs() if self.stages is not None else []:
+            counts[pair] = counts.get(pair, 0) + 1
+        return counts

@@ -1,0 +1,213 @@
+"""What makes one character another: all the numbers of a head, its mouth's poses and its colours.
+
+Lengths are in head radii (+y up, +z to the front), angles in degrees, colours as a painter picks them (sRGB, 0…1).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from core_pipeline.faces.face import Camera
+from core_pipeline.faces.sculpt.sdf import Blob, Point
+
+Pair = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Mouth:
+    """The lips at rest, and what lies behind them."""
+
+    height: float = -0.42
+    half_width: float = 0.36
+    smile: float = 0.05
+    upper: float = 0.07
+    lower: float = 0.09
+    upper_depth: float = 0.042
+    lower_depth: float = 0.05
+    lap: float = 0.02
+    bow: float = 1.0
+    corner_jaw: float = 0.36
+    hinge: Point = (0.0, -0.10, -0.05)
+    bag: tuple[float, float, float] = (0.40, 0.24, 0.62)
+
+
+@dataclass(frozen=True)
+class Dentition:
+    """Two rows of teeth on a horseshoe: half width, depth; and the heights that matter relative to the lips' line."""
+
+    half_width: float = 0.30
+    depth: float = 0.42
+    behind_lips: float = 0.115
+    edge: float = -0.03
+    upper_height: float = 0.14
+    lower_height: float = 0.12
+    bite: float = 0.012
+    thickness: float = 0.034
+    per_side: int = 6
+
+
+@dataclass(frozen=True)
+class TongueBend:
+    """The tongue's middle line as four Bézier points (y, z), relative to the middle of the mouth."""
+
+    line: tuple[Pair, Pair, Pair, Pair]
+    tip_width: float = 1.0
+
+
+@dataclass(frozen=True)
+class MouthPose:
+    """What a pose does to the mouth; everything 0 is the neutral face.
+
+    jaw                opens, degrees
+    width              corners outwards, in half widths
+    raise_upper        middle of the upper lip up; drop_lower: of the lower lip down
+    corners            up; forward: middle of the lips out; corner_forward likewise
+    roll_upper/lower   degrees, positive flares outwards, negative curls in
+    thick              more (+) or less (−) visible lip, fraction
+    rounded            0…1 towards a ring of lip `ring` thick round a hole of half sizes `hole`
+    slide              upper lip down and forward over the lower: presses without running into it
+    tuck               (up, back) of the lower lip alone
+    upper_teeth, lower_teeth  (up, forward): where no one can see it they make room for the lips
+    cheeks             lifted
+    """
+
+    jaw: float = 0.0
+    width: float = 0.0
+    raise_upper: float = 0.0
+    drop_lower: float = 0.0
+    corners: float = 0.0
+    forward: float = 0.0
+    corner_forward: float = 0.0
+    roll_upper: float = 0.0
+    roll_lower: float = 0.0
+    thick: float = 0.0
+    thick_lower: float = 0.0
+    rounded: float = 0.0
+    hole: Pair = (0.06, 0.06)
+    ring: float = 0.08
+    slide: float = 0.0
+    tuck: Pair = (0.0, 0.0)
+    upper_teeth: Pair = (0.0, 0.0)
+    lower_teeth: Pair = (0.0, 0.0)
+    cheeks: float = 0.0
+    tongue: TongueBend | None = None
+
+
+@dataclass(frozen=True)
+class Eyes:
+    """Right eye; the left one is its mirror image. Lid heights and half width in eye radii."""
+
+    centre: Point = (0.325, 0.17, 0.62)
+    radius: float = 0.27
+    half_width: float = 0.83
+    upper: float = 0.66
+    lower: float = 0.56
+    slant: float = 0.04
+    yaw: float = 9.0
+    gaze: Pair = (3.0, -1.0)
+    iris: float = 31.0
+    pupil: float = 16.0
+    iris_colour: Point = (0.20, 0.45, 0.60)
+    lash: float = 1.0
+
+
+@dataclass(frozen=True)
+class Brows:
+    """(x, height above the eye's centre, half thickness) along the right brow, from nose to temple."""
+
+    line: tuple[tuple[float, float, float], ...] = (
+        (0.12, 0.395, 0.030),
+        (0.22, 0.455, 0.044),
+        (0.34, 0.475, 0.042),
+        (0.46, 0.435, 0.032),
+        (0.55, 0.365, 0.010),
+    )
+    lift: float = 0.09
+
+
+@dataclass(frozen=True)
+class Lock:
+    """A strand of hair: points on the head as (azimuth from the front, angle from the crown, height over the scalp)."""
+
+    path: tuple[tuple[float, float, float], ...]
+    width: float
+    thickness: float
+
+
+@dataclass(frozen=True)
+class Hair:
+    """hairline: (azimuth from the front, angle from the crown); thickness over the scalp at front, top and back."""
+
+    hairline: tuple[Pair, ...]
+    crown: Point = (0.0, 0.84, -0.40)
+    front: float = 0.17
+    top: float = 0.13
+    back: float = 0.10
+    quiff: float = 0.16
+    clumps: int = 11
+    twist: float = 1.2
+    locks: tuple[Lock, ...] = ()
+
+
+@dataclass(frozen=True)
+class Ears:
+    """Where they sit, half width and half height, and how far they stand off."""
+
+    centre: Point = (0.86, 0.02, -0.06)
+    size: Pair = (0.15, 0.22)
+    stand_off: float = 32.0
+
+
+@dataclass(frozen=True)
+class Body:
+    """Neck and shirt below the head."""
+
+    neck: float = 0.33
+    middle: float = -0.16
+    collar: float = -1.20
+
+
+@dataclass(frozen=True)
+class Palette:
+    """Colours of the parts."""
+
+    skin: Point = (0.93, 0.69, 0.56)
+    blush: Point = (0.93, 0.45, 0.40)
+    lid: Point = (0.86, 0.58, 0.46)
+    lip: Point = (0.80, 0.41, 0.38)
+    inner_lip: Point = (0.55, 0.20, 0.20)
+    throat: Point = (0.12, 0.02, 0.03)
+    teeth: Point = (0.97, 0.96, 0.92)
+    gums: Point = (0.78, 0.36, 0.38)
+    tongue: Point = (0.88, 0.42, 0.44)
+    hair: Point = (0.35, 0.19, 0.09)
+    hair_light: Point = (0.52, 0.31, 0.15)
+    brow: Point = (0.27, 0.14, 0.07)
+    lash: Point = (0.20, 0.10, 0.07)
+    shirt: Point = (0.16, 0.50, 0.56)
+    shirt_trim: Point = (0.95, 0.90, 0.80)
+
+
+@dataclass(frozen=True)
+class Character:
+    """One face of ours: `poses` become its blendshapes, beside blink and browUp."""
+
+    name: str
+    title: str
+    clay: tuple[Blob, ...]
+    poses: Mapping[str, MouthPose]
+    hair: Hair
+    rest_tongue: TongueBend
+    mouth: Mouth = Mouth()
+    teeth: Dentition = Dentition()
+    eyes: Eyes = Eyes()
+    brows: Brows = Brows()
+    ears: Ears = Ears()
+    body: Body = Body()
+    palette: Palette = Palette()
+    camera: Camera = Camera()
+    middle: Point = (0.0, -0.12, 0.05)
+    nose: Point = (0.0, -0.10, 0.97)
+    lip_columns: int = 80
+    pose_map: Mapping[str, Mapping[str, float]] = field(default_factory=dict)

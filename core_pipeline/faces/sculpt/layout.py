@@ -1,0 +1,135 @@
+"""Where the skin's vertices lie, as a flat map round the mouth: finer near lips, eyes and nose, the same left and right.
+
+The map is azimuthal: the distance from its origin is the angle at the head's middle away from the mouth, in radians.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import Delaunay
+
+from core_pipeline.faces.sculpt.sdf import Array
+
+Indices = NDArray[np.int64]
+RIM = 2.7
+
+
+@dataclass(frozen=True, eq=False)
+class Layout:
+    """points (n, 2); triangles (m, 3); border (k,) round the lips, eyes: right and left loop (e,) each, rim (r,)."""
+
+    points: Array
+    triangles: Indices
+    border: Indices
+    eyes: tuple[Indices, Indices]
+
+
+def lay_out(border: Array, eye_rings: list[Array], spacing: Callable[[Array], Array]) -> Layout:
+    """border (k, 2) anticlockwise from the bottom of the mouth, k a multiple of 4; the first eye ring is the lid's edge.
+
+    spacing  points (p, 2) → wished distance between vertices there (p,)
+    """
+    half = border[: len(border) // 2 + 1].copy()
+    half[[0, -1], 0] = 0.0
+    loop = eye_rings[0]
+    seeds = [half, loop]
+    seeds += [ring[ring[:, 0] > 0.02] for ring in eye_rings[1:]]
+    seeds += _lip_rings(half)
+    seeds.append(np.stack([RIM * np.sin(np.linspace(0, np.pi, 15)), -RIM * np.cos(np.linspace(0, np.pi, 15))], -1))
+    fixed = np.concatenate(seeds)
+    fixed[np.abs(fixed[:, 0]) < 1e-9, 0] = 0.0
+    points = _scatter(fixed, half, loop, spacing)
+    triangles = Delaunay(points).simplices.astype(np.int64)
+    a, b, c = (points[triangles[:, i]] for i in range(3))
+    area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+    triangles[area < 0] = triangles[area < 0][:, ::-1]
+    middle = (a + b + c) / 3
+    kept = (np.abs(area) > 1e-9) & ~_inside(middle, half) & ~_inside(middle, loop)
+    return _both_sides(points, triangles[kept], len(half), len(loop))
+
+
+def _lip_rings(half: Array) -> list[Array]:
+    """Three rings of vertices just outside the lips, every other one half a step on."""
+    edge = np.roll(half, -1, axis=0) - np.roll(half, 1, axis=0)
+    edge[0], edge[-1] = (1.0, 0.0), (-1.0, 0.0)
+    outward = np.stack([edge[:, 1], -edge[:, 0]], -1)
+    for _ in range(6):
+        outward[1:-1] = (outward[:-2] + 2 * outward[1:-1] + outward[2:]) / 4
+    outward /= np.linalg.norm(outward, axis=1, keepdims=True)
+    rings = []
+    for number, gap in enumerate((0.024, 0.052, 0.086)):
+        ring = half + gap * outward
+        if number % 2 == 0:
+            ring = np.concatenate([(ring[:-1] + ring[1:]) / 2])
+        rings.append(ring)
+    return rings
+
+
+def _scatter(fixed: Array, lips: Array, loop: Array, spacing: Callable[[Array], Array]) -> Array:
+    """`fixed` and, in a low-discrepancy order, every candidate that keeps its distance; then evened out a little."""
+    golden = 1.32471795724474602596
+    step = np.arange(1, 9000)
+    u, v = (step / golden) % 1, (step / golden**2) % 1
+    radius, angle = RIM * u**0.75, np.pi * (v - 0.5)
+    candidates = np.stack([radius * np.cos(angle), radius * np.sin(angle)], -1)
+    middle = np.stack([np.zeros(220), np.linspace(-RIM, RIM, 220)], -1)
+    candidates = np.concatenate([middle, candidates])
+    want = spacing(candidates)
+    candidates[:, 0][candidates[:, 0] < 0.45 * want] = 0.0
+    free = ~_inside(candidates, lips) & ~_inside(candidates, loop) & (np.linalg.norm(candidates, axis=1) < RIM - 0.12)
+    points = np.empty((len(fixed) + len(candidates), 2))
+    points[: len(fixed)] = fixed
+    count = len(fixed)
+    for candidate, gap in zip(candidates[free], want[free], strict=True):
+        if np.min(np.sum((points[:count] - candidate) ** 2, axis=1)) > gap * gap:
+            points[count] = candidate
+            count += 1
+    points = points[:count]
+    on_axis = points[:, 0] == 0.0
+    for _ in range(3):
+        triangles = Delaunay(points).simplices
+        middle_of = _neighbour_mean(points, triangles)
+        middle_of[on_axis, 0] = 0.0
+        points[len(fixed) :] = middle_of[len(fixed) :]
+    return points
+
+
+def _neighbour_mean(points: Array, triangles: NDArray[np.int32]) -> Array:
+    edges = np.unique(np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), 1), axis=0)
+    total = np.zeros_like(points)
+    number = np.zeros(len(points))
+    for a, b in (edges.T, edges.T[::-1]):
+        np.add.at(total, a, points[b])
+        np.add.at(number, a, 1)
+    mean: Array = total / number[:, None]
+    return mean
+
+
+def _inside(points: Array, polygon: Array) -> NDArray[np.bool_]:
+    """Even-odd rule."""
+    odd = np.zeros(len(points), bool)
+    x, y = points.T
+    for (x0, y0), (x1, y1) in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
+        if y0 != y1:
+            odd ^= ((y0 > y) != (y1 > y)) & (x < (x1 - x0) * (y - y0) / (y1 - y0) + x0)
+    return odd
+
+
+def _both_sides(points: Array, triangles: Indices, lips: int, loop: int) -> Layout:
+    """The right half and its mirror image, sewn together along x = 0."""
+    off_axis = points[:, 0] > 0
+    other = np.arange(len(points))
+    other[off_axis] = len(points) + np.arange(off_axis.sum())
+    both = np.concatenate([points, points[off_axis] * (-1, 1)])
+    sewn = np.concatenate([triangles, other[triangles][:, ::-1]])
+    used = np.unique(sewn)
+    number = np.full(len(both), -1)
+    number[used] = np.arange(len(used))
+    right = np.arange(lips)
+    border = np.concatenate([right, other[right[-2:0:-1]]])
+    eye = np.arange(lips, lips + loop)
+    return Layout(both[used], number[sewn], number[border], (number[eye], number[other[eye]]))

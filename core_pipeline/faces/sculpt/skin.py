@@ -1,0 +1,242 @@
+"""The skin: face, lips, lids and the inside of the mouth in one seamless mesh, in every pose."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from core_pipeline.faces.sculpt.character import Character, MouthPose
+from core_pipeline.faces.sculpt.fields import SmoothField
+from core_pipeline.faces.sculpt.layout import Layout, lay_out
+from core_pipeline.faces.sculpt.lids import COLUMNS, REACH, Lid
+from core_pipeline.faces.sculpt.mouth import BAG_RINGS, PROFILE, RINGS, Lips
+from core_pipeline.faces.sculpt.piece import Piece, Triangles, fan, grid, linear, turn
+from core_pipeline.faces.sculpt.sdf import Array, Solid, smoothstep
+
+EYE_RINGS = (1.0, 1.09, 1.20, 1.34, 1.52, 1.74)
+RIM = ((1.035, 0.985), (0.94, 0.99))
+
+
+class Skin:
+    """Builds the skin of one character: `piece()` is the mesh with all its poses."""
+
+    def __init__(self, character: Character, clay: Solid, lips: Lips) -> None:
+        self.character, self.clay, self.lips = character, clay, lips
+        self.lid = Lid(character.eyes)
+        self._middle = np.array(character.middle)
+        forward = lips.centre - self._middle
+        forward /= np.linalg.norm(forward)
+        self._axes = np.array([(1.0, 0.0, 0.0), np.cross(forward, (1.0, 0.0, 0.0)), forward])
+        self.layout = self._lay_out()
+        self.face = self._shape()
+        self._number()
+        self._ratio = self._eye_ratio()
+
+    def _to_map(self, points: Array) -> Array:
+        away = (points - self._middle) @ self._axes.T
+        away /= np.linalg.norm(away, axis=-1, keepdims=True)
+        across = np.maximum(np.linalg.norm(away[..., :2], axis=-1, keepdims=True), 1e-12)
+        flat: Array = away[..., :2] / across * np.arccos(np.clip(away[..., 2:], -1, 1))
+        return flat
+
+    def _directions(self, flat: Array) -> Array:
+        angle = np.linalg.norm(flat, axis=-1, keepdims=True)
+        across = flat / np.maximum(angle, 1e-12)
+        directions: Array = np.concatenate([across * np.sin(angle), np.cos(angle)], -1) @ self._axes
+        return directions
+
+    def _lay_out(self) -> Layout:
+        steps = 2 * np.pi * np.arange(COLUMNS) / COLUMNS
+        rings = []
+        for number, size in enumerate(EYE_RINGS):
+            loop = self._to_map(self.lid.edge(steps + (number % 2) * np.pi / COLUMNS))
+            rings.append(loop.mean(0) + size * (loop - loop.mean(0)))
+        border = self._to_map(self.lips.rest[-1])
+        self._eye_loop = rings[0]
+        eye = rings[0].mean(0)
+        nose = self._to_map(np.array(self.character.nose))
+
+        def spacing(flat: Array) -> Array:
+            lips = np.min(np.linalg.norm(flat[:, None] - border[None], axis=-1), axis=1)
+            lids = np.maximum(np.linalg.norm(flat - eye, axis=1) - 0.5, 0)
+            tip = np.maximum(np.linalg.norm(flat - nose, axis=1) - 0.16, 0)
+            near: Array = np.minimum.reduce([0.045 + 0.13 * lips, 0.075 + 0.16 * lids, 0.042 + 0.22 * tip])
+            return np.clip(near, 0, 0.24)
+
+        return lay_out(border, rings, spacing)
+
+    def _shape(self) -> Array:
+        """Positions of the layout's points: cast on the clay, then evened out where the map was stretched."""
+        flat = self.layout.points
+        directions = self._directions(flat)
+        points = self.clay.cast(np.broadcast_to(self._middle, directions.shape), directions)
+        points[self.layout.border] = self.lips.rest[-1]
+        steps = 2 * np.pi * np.arange(COLUMNS) / COLUMNS
+        edge = self.lid.edge(steps)
+        points[self.layout.eyes[0]], points[self.layout.eyes[1]] = edge, edge * (-1, 1, 1)
+        fixed = np.zeros(len(flat), bool)
+        fixed[self.layout.border] = True
+        for eye in self.layout.eyes:
+            fixed[eye] = True
+        fixed |= np.linalg.norm(flat, axis=1) > 2.2
+        triangles = self.layout.triangles
+        pairs = np.unique(np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), 1), axis=0)
+        for _ in range(12):
+            total, number = np.zeros_like(points), np.zeros(len(points))
+            for a, b in (pairs.T, pairs.T[::-1]):
+                np.add.at(total, a, points[b])
+                np.add.at(number, a, 1)
+            moved = points + 0.5 * (total / number[:, None] - points)
+            points = np.where(fixed[:, None], points, self.clay.project(moved, 2))
+        points[flat[:, 0] == 0.0, 0] = 0.0
+        return points
+
+    def _number(self) -> None:
+        """Vertex numbers of the whole: bag (deepest first), lips, the end of the throat, the face, rims of the lids."""
+        columns = self.character.lip_columns
+        rows = BAG_RINGS + RINGS
+        inner = rows * columns + 1
+        self._face_number = np.full(len(self.layout.points), -1)
+        self._face_number[self.layout.border] = (rows - 1) * columns + np.arange(columns)
+        rest = self._face_number < 0
+        self._face_number[rest] = inner + np.arange(rest.sum())
+        self._face_own = rest
+        tube = grid(rows, columns, closed=True)[:, ::-1]
+        throat = fan(np.arange(columns), inner - 1)
+        face = self._face_number[self.layout.triangles]
+        rims = self._rim_triangles(inner + int(rest.sum()))
+        per_row = 2 * columns
+        # the lattice's triangles come in two halves; sort them by row so that each part is one range
+        by_row = np.argsort(np.tile(np.repeat(np.arange(rows - 1), columns), 2), kind="stable")
+        tube = tube[by_row]
+        self.triangles: Triangles = np.concatenate([throat, tube, face, rims])
+        mouth, lips = len(throat) + (BAG_RINGS + 2) * per_row, len(throat) + len(tube)
+        self.ranges = {
+            "mouth": (0, mouth),
+            "lips": (mouth, lips - mouth),
+            "skin": (lips, len(face)),
+            "lid_rims": (lips + len(face), len(rims)),
+        }
+
+    def _rim_triangles(self, start: int) -> Triangles:
+        rims = []
+        for side, eye in enumerate(self.layout.eyes):
+            own = start + side * len(RIM) * COLUMNS + np.arange(len(RIM) * COLUMNS).reshape(len(RIM), COLUMNS)
+            lattice = np.concatenate([self._face_number[eye][None], own])
+            triangles = lattice.ravel()[grid(len(RIM) + 1, COLUMNS, closed=True)]
+            rims.append(triangles if side == 0 else triangles[:, ::-1])
+        return np.concatenate(rims)
+
+    def _eye_ratio(self) -> Array:
+        """(layout points,) distance from the nearer eye's middle over the lid edge's, on the map."""
+        middle = self._eye_loop.mean(0)
+        loop = self._eye_loop - middle
+        flat = np.abs(self.layout.points * (1, 0)) + self.layout.points * (0, 1) - middle
+        around, size = np.arctan2(loop[:, 1], loop[:, 0]), np.linalg.norm(loop, axis=1)
+        order = np.argsort(around)
+        edge = np.interp(np.arctan2(flat[:, 1], flat[:, 0]), around[order], size[order], period=2 * np.pi)
+        ratio: Array = np.linalg.norm(flat, axis=1) / edge
+        return ratio
+
+    def piece(self) -> Piece:
+        """The mesh, its colours and its poses."""
+        self._prepare_fields()
+        poses = {name: self._posed(pose) for name, pose in self.character.poses.items()}
+        face = self.face
+        poses["blink"] = self._whole(self.lips.rest, self.lips.bag(), self._blink(face), closed=True)
+        poses["browUp"] = self._whole(self.lips.rest, self.lips.bag(), self._brow_up(face), closed=False)
+        rest = self._whole(self.lips.rest, self.lips.bag(), face, closed=False)
+        return Piece("skin", rest, self.triangles, self._colours(rest), poses, self.ranges)
+
+    def _prepare_fields(self) -> None:
+        points, mouth = self.face, self.character.mouth
+        border = points[self.layout.border]
+        away = np.min(np.linalg.norm(points[:, None] - border[None], axis=-1), axis=1)
+        on_border = np.zeros(len(points), bool)
+        on_border[self.layout.border] = True
+        nose = np.linalg.norm(points - np.array(self.character.nose), axis=1) < 0.15
+        still = nose | (self._ratio < 1.5)
+        self._move = SmoothField(points, self.layout.triangles, on_border | still | (away > 0.60))
+        share = smoothstep(mouth.height + 0.32, mouth.height - 0.34, points[:, 1]) * smoothstep(-0.55, 0.30, points[:, 2])
+        share[self.layout.border] = self.lips.jaw_share
+        jaw = SmoothField(points, self.layout.triangles, on_border | still | (away > 0.40))
+        self._jaw = np.clip(jaw.spread(np.where(still, 0, share)[:, None]), 0, 1)
+
+    def _posed(self, pose: MouthPose) -> Array:
+        lips = self.lips.build(pose)
+        moved = np.zeros_like(self.face)
+        moved[self.layout.border] = lips[-1] - self.lips.rest[-1]
+        face = self.face + self._move.spread(moved)
+        if pose.cheeks:
+            x, y, z = self.face.T
+            bump = np.exp(-(((np.abs(x) - 0.50) / 0.20) ** 2) - ((y + 0.24) / 0.17) ** 2) * smoothstep(0.1, 0.4, z)
+            face = face + (pose.cheeks * bump * smoothstep(1.0, 1.6, self._ratio))[:, None] * (np.sign(x)[:, None] * (0.5, 0, 0) + (0, 0.6, 0.5))
+        face = face + self._jaw * (turn(face, self.character.mouth.hinge, pose.jaw) - face)
+        return self._whole(*self.lips.posed(pose), face, closed=False)
+
+    def _whole(self, lips: Array, bag: Array, face: Array, *, closed: bool) -> Array:
+        end = bag[-1].mean(0)
+        inner = np.concatenate([bag[::-1].reshape(-1, 3), lips.reshape(-1, 3), end[None]])
+        return np.concatenate([inner, face[self._face_own], *self._rims(closed=closed)])
+
+    def _rims(self, *, closed: bool) -> list[Array]:
+        angle = 2 * np.pi * np.arange(COLUMNS) / COLUMNS
+        right = np.concatenate([self.lid.edge(angle, radius, size) for radius, size in RIM])
+        if closed:
+            right = self.lid.close(right, np.ones(len(right)))
+        return [right, right * (-1, 1, 1)]
+
+    def _blink(self, face: Array) -> Array:
+        near = self._ratio < REACH
+        right = face * np.where(face[:, :1] < 0, (-1, 1, 1), (1, 1, 1))
+        closed = self.lid.close(right[near], self.lid.share(self._ratio[near]))
+        shut = face.copy()
+        shut[near] = closed * np.where(face[near, :1] < 0, (-1, 1, 1), (1, 1, 1))
+        return shut
+
+    def _brow_up(self, face: Array) -> Array:
+        eyes = self.character.eyes
+        x, y, _ = face.T
+        height = y - eyes.centre[1]
+        share = np.exp(-(((np.abs(x) - eyes.centre[0]) / 0.36) ** 2) - ((height - 0.46) / 0.20) ** 2)
+        share *= smoothstep(1.0, 1.5, self._ratio)
+        return self.clay.project(face + (0, self.character.brows.lift, 0) * share[:, None]) * share[:, None] + face * (1 - share[:, None])
+
+    def _colours(self, rest: Array) -> Array:
+        palette, columns = self.character.palette, self.character.lip_columns
+        skin = linear(palette.skin)
+        colours = np.tile(np.append(skin, 0.35), (len(rest), 1))
+        lattice = colours[: (BAG_RINGS + RINGS) * columns].reshape(BAG_RINGS + RINGS, columns, 4)
+        v, n = PROFILE[:, 0, None], PROFILE[:, 1, None]
+        outer = np.where(n > -0.5, smoothstep(1.12, 0.86, v), 1.0) * np.ones(columns)
+        inner = smoothstep(-0.1, -1.3, n) * np.ones(columns)
+        lip = lattice[BAG_RINGS:]
+        lip[..., :3] += outer[..., None] * (linear(palette.lip) - lip[..., :3])
+        lip[..., :3] += inner[..., None] * (linear(palette.inner_lip) - lip[..., :3])
+        lip[..., 3] += (0.55 - 0.35) * outer
+        depth = np.linspace(1, 0.1, BAG_RINGS)[:, None, None]
+        lattice[:BAG_RINGS, :, :3] = linear(palette.throat) * depth + linear(palette.inner_lip) * 0.7 * (1 - depth)
+        lattice[:BAG_RINGS, :, 3] = 0.2
+        colours[(BAG_RINGS + RINGS) * columns] = np.append(linear(palette.throat), 0.1)
+        self._paint_face(colours, rest)
+        return colours
+
+    def _paint_face(self, colours: Array, rest: Array) -> None:
+        palette = self.character.palette
+        first = (BAG_RINGS + RINGS) * self.character.lip_columns + 1
+        own = self.face[self._face_own]
+        last = first + len(own)
+        x, y, z = own.T
+        tone = colours[first:last, :3]
+        cheek = np.exp(-(((np.abs(x) - 0.50) / 0.19) ** 2) - ((y + 0.20) / 0.15) ** 2) * smoothstep(0.1, 0.4, z)
+        nose = np.exp(-(np.linalg.norm(own - np.array(self.character.nose), axis=1) ** 2) / 0.12**2)
+        warm = np.clip(0.40 * cheek + 0.30 * nose, 0, 1)[:, None]
+        tone += warm * (linear(palette.blush) - tone)
+        ratio = self._ratio[self._face_own]
+        lid = smoothstep(1.45, 1.1, ratio)[:, None]
+        tone += 0.7 * lid * (linear(palette.lid) - tone)
+        free = self.clay.occlusion(own, self.clay.gradient(own))
+        tone *= (0.55 + 0.45 * smoothstep(0.15, 0.75, free))[:, None] ** np.array([0.8, 1.1, 1.2])
+        angle = 2 * np.pi * np.arange(COLUMNS) / COLUMNS
+        upper = smoothstep(-0.15, 0.25, np.sin(angle)) * self.character.eyes.lash
+        rim = linear(palette.lid)[None] * 0.8 + upper[:, None] * (linear(palette.lash) - linear(palette.lid) * 0.8)
+        colours[last:, :3] = np.tile(rim, (2 * len(RIM), 1))

@@ -1,0 +1,99 @@
+"""Teeth and gums: a rounded section swept along a horseshoe, scalloped into single teeth."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from core_pipeline.faces.sculpt.character import Character, MouthPose
+from core_pipeline.faces.sculpt.piece import Piece, grid, linear, turn
+from core_pipeline.faces.sculpt.sdf import Array, smoothstep
+
+PER_TOOTH = 5
+# (across the row: −1 tongue side … 1 lip side; along the tooth: 0 at the gum, 1 at the edge)
+TOOTH = np.array([(0.95, -0.15), (1.06, 0.30), (1.0, 0.72), (0.72, 0.94), (0.30, 1.0), (-0.45, 0.9), (-0.9, 0.4), (-0.9, -0.15)])
+GUM = np.array([(0.2, -1.1), (0.9, -1.0), (1.25, -0.55), (1.22, 0.02), (0.95, 0.16), (-0.8, 0.16), (-1.4, -0.5), (-0.6, -1.1)])
+
+
+def teeth(character: Character, centre: Array) -> list[Piece]:
+    """Upper and lower teeth and gums; `centre` is the middle of the mouth."""
+    pieces = []
+    for upper in (True, False):
+        row = _Row(character, centre, upper=upper)
+        where = "upper" if upper else "lower"
+        for name, section in ((f"teeth_{where}", TOOTH), (f"gums_{where}", GUM)):
+            points, triangles = row.sweep(section, is_tooth=section is TOOTH)
+            colours = row.colours(points, is_tooth=section is TOOTH)
+            poses = {pose: row.moved(points, shape) for pose, shape in character.poses.items()}
+            pieces.append(Piece(name, points, triangles, colours, poses))
+    return pieces
+
+
+class _Row:
+    def __init__(self, character: Character, centre: Array, *, upper: bool) -> None:
+        self.character, self.centre, self.upper = character, centre, upper
+        size = character.teeth
+        widths = np.array([1.25 if upper else 0.8, 1.0 if upper else 0.85, 0.95, 1.0, 1.0, 1.3, 1.3, 1.3][: size.per_side])
+        ends = np.concatenate([[0], np.cumsum(widths)]) / widths.sum()
+        fine = np.concatenate([np.linspace(a, b, PER_TOOTH)[:-1] for a, b in zip(ends[:-1], ends[1:], strict=True)])
+        half = np.append(fine, 1.0)
+        self.along = np.concatenate([-half[::-1], half[1:]])
+        inside = np.searchsorted(ends, np.abs(self.along).clip(0, 1 - 1e-9), side="right") - 1
+        middle, reach = (ends[inside] + ends[inside + 1]) / 2, (ends[inside + 1] - ends[inside]) / 2
+        self.from_middle = np.abs((np.abs(self.along) - middle) / reach).clip(0, 1)
+
+    def _arch(self) -> tuple[Array, Array]:
+        """Points (x, z) of the horseshoe relative to its front, and outward directions."""
+        size = self.character.teeth
+        fine = np.linspace(-2.0, 2.0, 400)
+        x = size.half_width * (1 - 0.0 if self.upper else 0.94) * np.sin(np.clip(fine, -np.pi / 2, np.pi / 2))
+        z = np.where(np.abs(fine) < np.pi / 2, np.cos(fine) - 1, -1 - 0.8 * (np.abs(fine) - np.pi / 2)) * size.depth * 0.72
+        length = np.concatenate([[0], np.cumsum(np.hypot(np.diff(x), np.diff(z)))])
+        share = (self.along + 1) / 2 * length[-1]
+        x, z = np.interp(share, length, x), np.interp(share, length, z)
+        dx, dz = np.gradient(x), np.gradient(z)
+        out = np.stack([-dz, dx], -1)
+        return np.stack([x, z], -1), out / np.linalg.norm(out, axis=1, keepdims=True)
+
+    def sweep(self, section: Array, *, is_tooth: bool) -> tuple[Array, Array]:
+        size = self.character.teeth
+        arch, out = self._arch()
+        height = size.upper_height if self.upper else size.lower_height
+        # a gap is a groove on the lip side and a notch in the edge; teeth get lower towards the back
+        gap = smoothstep(0.72, 1.0, self.from_middle)[:, None] if is_tooth else 0.6 * smoothstep(0.3, 1.0, self.from_middle)[:, None]
+        lower_back = 1 - 0.30 * np.abs(self.along[:, None]) ** 1.5
+        across = section[:, 0] * size.thickness
+        down = section[:, 1]
+        if is_tooth:
+            across = across - 0.30 * size.thickness * gap * (section[:, 0] > 0)
+            down = down - 0.10 * gap * smoothstep(0.5, 0.9, down) - 0.03 * self.from_middle[:, None] ** 4 * (down > 0.8)
+        else:
+            across = across + 0 * gap
+            down = down + 0.10 * gap * (section[:, 1] > 0)
+        sign = -1.0 if self.upper else 1.0
+        edge = size.edge if self.upper else size.edge - 0.006
+        y = edge + sign * height * lower_back * (down - 1) + (0.0 if self.upper else -0.02 * (1 - lower_back))
+        back = size.behind_lips + (0 if self.upper else size.bite)
+        x = arch[:, :1] + out[:, :1] * across
+        z = arch[:, 1:] + out[:, 1:] * across - back - size.thickness
+        points = np.stack([x + 0 * y, y + 0 * x, z + 0 * y], -1).reshape(-1, 3) + self.centre
+        triangles = grid(len(self.along), len(section), closed=False)
+        ends = []
+        for row, order in ((0, 1), (len(self.along) - 1, -1)):
+            first = row * len(section)
+            ends += [(first, first + i, first + i + 1)[::order] for i in range(1, len(section) - 1)]
+        triangles = np.concatenate([triangles, np.array(ends)])
+        return points, triangles if self.upper else triangles[:, ::-1]
+
+    def colours(self, points: Array, *, is_tooth: bool) -> Array:
+        palette = self.character.palette
+        base = linear(palette.teeth if is_tooth else palette.gums)
+        depth = self.centre[2] - points[:, 2]
+        shade = 1 - 0.82 * smoothstep(0.20, 0.62, depth)
+        if is_tooth:
+            shade = shade * (1 - 0.22 * np.repeat(smoothstep(0.8, 1.0, self.from_middle), len(TOOTH)))
+        return np.column_stack([base * shade[:, None], np.full(len(points), 0.85 if is_tooth else 0.6)])
+
+    def moved(self, points: Array, pose: MouthPose) -> Array:
+        up, forward = pose.upper_teeth if self.upper else pose.lower_teeth
+        shifted = points + np.array([0, up, forward])
+        return shifted if self.upper else turn(shifted, self.character.mouth.hinge, pose.jaw)

@@ -1,0 +1,107 @@
+"""What else a head has: brows, ears, a neck and a shirt."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from core_pipeline.faces.sculpt.character import Character
+from core_pipeline.faces.sculpt.piece import Piece, grid, linear, mirror, paint, tube
+from core_pipeline.faces.sculpt.sdf import Array, Solid, smoothstep
+
+BROW_ROWS = 14
+EAR_AROUND = 26
+NECK_AROUND = 40
+
+
+def brows(character: Character, clay: Solid) -> list[Piece]:
+    """Both brows; they go up in browUp and a little down in blink."""
+    shape = character.brows
+    rest, triangles = _brow(character, clay, 0.0)
+    poses = {"browUp": _brow(character, clay, shape.lift)[0], "blink": _brow(character, clay, -0.012)[0]}
+    right = Piece("brow_right", rest, triangles, paint(len(rest), character.palette.brow, 0.3), poses)
+    return [right, mirror(right, "brow_left")]
+
+
+def _brow(character: Character, clay: Solid, lift: float) -> tuple[Array, Array]:
+    known = np.array(character.brows.line)
+    knots = np.linspace(0, 1, len(known))
+    u = (1 - np.cos(np.pi * np.linspace(0, 1, BROW_ROWS))) / 2
+    x, y, half = (PchipInterpolator(knots, known[:, i])(u) for i in range(3))
+    y = y + character.eyes.centre[1] + lift
+    middle = np.array(character.middle)
+    seen = np.stack([x, y, clay.front(x, y)], -1)
+    out = clay.gradient(seen)
+    path = clay.project(np.maximum(seen, middle - 9))
+    ahead = np.gradient(path, axis=0)
+    ahead /= np.linalg.norm(ahead, axis=1, keepdims=True)
+    across = np.cross(out, ahead)
+    across /= np.linalg.norm(across, axis=1, keepdims=True)
+    ends = np.sqrt(np.clip(1 - np.clip((0.10 - u) / 0.10, 0, 1) ** 2, 0.02, 1))
+    ends[-1] = 0.1
+    half = half * ends
+    return tube(path + out * 0.012, across, np.cross(ahead, across), half, 0.55 * half + 0.004, 8)
+
+
+def ears(character: Character) -> list[Piece]:
+    """A bowl with a rolled rim on each side."""
+    shape = character.ears
+    wide, high = shape.size
+    turn = 2 * np.pi * np.arange(EAR_AROUND) / EAR_AROUND
+    # (distance from the middle of the bowl, how far it stands off the head), from inside to the root behind
+    section = [(0.0, 0.035), (0.22, 0.030), (0.42, 0.045), (0.58, 0.085), (0.74, 0.090), (0.86, 0.112), (0.97, 0.104)]
+    section += [(1.0, 0.075), (0.94, 0.045), (0.80, 0.0), (0.62, -0.08)]
+    rows = []
+    for size, off in section:
+        lobe = 1 - 0.28 * smoothstep(0.0, -1.0, np.sin(turn))
+        u = wide * size * np.cos(turn) * lobe
+        v = high * size * np.sin(turn) + 0.02 * size
+        ridge = 0.02 * np.exp(-(((size - 0.45) / 0.12) ** 2)) * np.cos(turn)
+        rows.append(np.stack([off + ridge - 0.02 * (np.sin(turn) < -0.7) * (size > 0.4), v, u], -1))
+    local = np.concatenate(rows)
+    a = np.radians(shape.stand_off)
+    # u runs towards the back of the head, tilted a little like every ear
+    tilt = np.radians(-10)
+    y = local[:, 1] * np.cos(tilt) - local[:, 2] * np.sin(tilt)
+    back = local[:, 2] * np.cos(tilt) + local[:, 1] * np.sin(tilt)
+    x, z = local[:, 0] * np.cos(a) + back * np.sin(a), local[:, 0] * np.sin(a) - back * np.cos(a)
+    points = np.stack([x, y, z], -1) + np.array(shape.centre)
+    palette = character.palette
+    colours = paint(len(points), palette.skin, 0.35)
+    depth = np.repeat([0.55, 0.6, 0.7, 0.85, 0.95, 1.0, 1.0, 1.0, 0.95, 0.8, 0.7], EAR_AROUND)
+    warm = 0.35 * np.repeat([1, 1, 0.8, 0.5, 0.4, 0.4, 0.3, 0.2, 0.1, 0, 0], EAR_AROUND)[:, None]
+    colours[:, :3] += warm * (linear(palette.blush) - colours[:, :3])
+    colours[:, :3] *= depth[:, None] ** np.array([0.8, 1.1, 1.2])
+    triangles = grid(len(section), EAR_AROUND, closed=True)
+    right = Piece("ear_right", points, triangles, colours)
+    return [right, mirror(right, "ear_left")]
+
+
+def body(character: Character) -> list[Piece]:
+    """Neck and a shirt with a rolled collar, cut off below the frame."""
+    shape, palette = character.body, character.palette
+    turn = 2 * np.pi * np.arange(NECK_AROUND) / NECK_AROUND
+    heights = np.array([shape.collar - 0.12, shape.collar, -1.08, -0.96, -0.85, -0.72, -0.50])
+    radii = shape.neck * np.array([1.22, 1.12, 1.04, 1.0, 1.0, 1.03, 1.06])
+    neck = _lathe(turn, heights, radii, 1.0, shape.middle)
+    colours = paint(len(neck), palette.skin, 0.35)
+    # the head's shadow
+    free = 0.42 + 0.58 * smoothstep(-0.72, -1.25, np.repeat(heights, NECK_AROUND))
+    colours[:, :3] *= free[:, None] ** np.array([0.8, 1.1, 1.2])
+    trunk = np.array([(0.60, 1.02), (0.20, 1.16), (0.08, 1.28), (0.03, 1.40), (-0.03, 1.44), (-0.08, 1.40), (-0.10, 1.36)])
+    trunk = np.concatenate([trunk[:0], [(0.06, 1.08), (0.10, 1.16), (0.09, 1.27), (0.03, 1.34), (-0.04, 1.34), (-0.07, 1.30)]])
+    slope = np.array([(-0.08, 1.40), (-0.13, 1.75), (-0.22, 2.20), (-0.36, 2.60), (-0.60, 2.85), (-0.95, 2.95)])
+    collar = _lathe(turn, shape.collar + trunk[::-1, 0], shape.neck * trunk[::-1, 1], 1.0, shape.middle)
+    shirt = _lathe(turn, shape.collar + slope[::-1, 0], shape.neck * slope[::-1, 1], 0.72, shape.middle)
+    pieces = [Piece("neck", neck, grid(len(heights), NECK_AROUND, closed=True), colours)]
+    trim = paint(len(collar), palette.shirt_trim, 0.15)
+    pieces.append(Piece("collar", collar, grid(len(trunk), NECK_AROUND, closed=True), trim))
+    pieces.append(Piece("shirt", shirt, grid(len(slope), NECK_AROUND, closed=True), paint(len(shirt), palette.shirt, 0.12)))
+    return pieces
+
+
+def _lathe(turn: Array, heights: Array, radii: Array, depth: float, middle: float) -> Array:
+    """Rings (rows × columns) from the bottom to the top; wide rings are flatter from front to back."""
+    flat = depth + (1 - depth) * smoothstep(1.9, 1.2, radii / radii.min())[:, None]
+    x, z = radii[:, None] * np.sin(turn), flat * radii[:, None] * np.cos(turn)
+    return np.stack([x, heights[:, None] + 0 * x, z + middle], -1).reshape(-1, 3)

@@ -1,0 +1,239 @@
+"""Typed sentence → Utterance with espeak-ng, which runs in a process of its own (espeak_process.py).
+
+One process is kept warm. When it dies it is started again; when it hangs it is killed. Its times are
+those of the sound, so picture and sound agree to the sample.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import subprocess
+import sys
+import threading
+import weakref
+from collections import OrderedDict
+from collections.abc import Mapping
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from ..errors import UserError
+from ..phonemes import SILENCE
+from ..schedule import Schedule
+from .espeak_phones import Mark, settled, to_phones
+from .sentence import Sentence, shortened, tokens
+from .utterance import Audio, Utterance, Word
+
+#: Voice → what to call it.
+VOICES: Mapping[str, str] = MappingProxyType({"en-us": "American English", "gmw/en": "British English"})
+#: Words per minute that espeak can speak.
+SLOWEST, FASTEST = 80, 450
+#: Samples kept in the cache, over all utterances: about eight minutes.
+_CACHE = 10_000_000
+
+_PROGRAM = Path(__file__).with_name("espeak_process.py")
+
+
+class NoVoice(Exception):  # noqa: N818 - a state of the machine, no error of the user's
+    """espeak-ng cannot speak here; str() says why, as a part of a sentence."""
+
+
+class Espeak:
+    """Speaks with a warm process. Any thread may call; one sentence at a time is spoken.
+
+    library, data  the library and its folder of data; by default those of the package espeakng-loader
+    timeout        seconds for one sentence, and for starting
+    """
+
+    def __init__(self, library: str = "", data: str = "", timeout: float = 15.0) -> None:
+        self._command = [sys.executable, "-P", str(_PROGRAM), library, data]
+        self._timeout = timeout
+        self._lock = threading.Lock()
+        self._process: _Process | None = None
+        self._missing = ""
+        self._closed = False
+        self._cache: OrderedDict[tuple[str, str, int], Utterance] = OrderedDict()
+
+    @property
+    def process_id(self) -> int | None:
+        """Of the warm process; None before the first sentence and after its death."""
+        process = self._process
+        return process.id if process and process.alive else None
+
+    def warm_up(self) -> None:
+        """Start the process now, so that the first sentence need not wait. NoVoice when it cannot."""
+        with self._lock:
+            self._running()
+
+    def close(self) -> None:
+        """End the process, even in the middle of a sentence. Afterwards every sentence is NoVoice."""
+        self._closed = True
+        if process := self._process:
+            process.stop()
+
+    def speak(self, sentence: Sentence, voice: str = "en-us", rate: int = 175) -> Utterance:
+        """The sentence as sound and phones.
+
+        rate  words per minute, 80…450
+        UserError for an unknown voice, an impossible rate, or when nothing is heard; NoVoice without espeak.
+        """
+        if voice not in VOICES:
+            raise UserError(f"There is no voice {voice!r}: choose one of {', '.join(VOICES)}.")
+        if not SLOWEST <= rate <= FASTEST:
+            raise UserError(f"A rate of {rate} words per minute cannot be spoken: choose {SLOWEST} to {FASTEST}.")
+        key = (sentence.text, voice, rate)
+        with self._lock:
+            if (found := self._cache.get(key)) is None:
+                found = self._cache[key] = self._utter(*key)
+                while sum(u.audio.samples.size for u in self._cache.values() if u.audio) > _CACHE:
+                    self._cache.popitem(last=False)
+            self._cache.move_to_end(key)
+        if not sentence.notes:
+            return found
+        return Utterance(found.text, found.schedule, found.audio, found.words, sentence.notes + found.notes)
+
+    def _utter(self, text: str, voice: str, rate: int) -> Utterance:
+        request = {"text": text, "voice": voice, "rate": rate}
+        try:
+            answer, sound = self._running().ask(request, self._timeout)
+        except EOFError:  # it died, now or since the last sentence: once more with a new one
+            try:
+                answer, sound = self._running().ask(request, self._timeout)
+            except EOFError as error:
+                raise NoVoice(f"espeak-ng stopped while speaking ({error})") from None
+        if problem := answer.get("error"):
+            raise NoVoice(f"espeak-ng cannot speak this: {problem}")
+        return _utterance(text, voice, answer, sound, self._rate)
+
+    def _running(self) -> _Process:
+        """The process, started if need be."""
+        if self._closed:
+            raise NoVoice("the voice was closed")
+        if self._process and self._process.alive:
+            return self._process
+        if self._missing:  # what failed to load once would fail again
+            raise NoVoice(self._missing)
+        if self._process:
+            self._process.stop()
+        try:
+            self._process = _Process(self._command)
+            weakref.finalize(self, self._process.stop)  # at the latest when Python ends
+            greeting, _ = self._process.receive(self._timeout)
+        except (OSError, EOFError) as error:
+            self._missing = f"espeak-ng does not start ({error})"
+            raise NoVoice(self._missing) from None
+        if problem := greeting.get("error"):
+            self._process.stop()
+            self._missing = f"espeak-ng does not start ({problem})"
+            raise NoVoice(self._missing)
+        self._rate = int(greeting["rate"])
+        return self._process
+
+
+class _Process:
+    """The running program and its pipes. EOFError when it ended before its answer was complete."""
+
+    def __init__(self, command: list[str]) -> None:
+        self._popen = subprocess.Popen(
+            command,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
+        )
+        self._ending = threading.Lock()
+
+    @property
+    def id(self) -> int:
+        return self._popen.pid
+
+    @property
+    def alive(self) -> bool:
+        return self._popen.poll() is None
+
+    def ask(self, request: dict[str, object], timeout: float) -> tuple[dict[str, Any], bytes]:
+        """One sentence; `timeout` in seconds, after which the process is killed."""
+        stdin = self._popen.stdin
+        assert stdin is not None
+        body = json.dumps(request).encode()
+        try:
+            stdin.write(len(body).to_bytes(4, "little") + body)
+            stdin.flush()
+        except (OSError, ValueError) as error:  # the pipe is broken, or closed by stop()
+            raise EOFError(str(error)) from None
+        return self.receive(timeout)
+
+    def receive(self, timeout: float) -> tuple[dict[str, Any], bytes]:
+        """The next answer."""
+        watch = threading.Timer(timeout, self._popen.kill)  # works for pipes of every system
+        watch.daemon = True
+        watch.start()
+        try:
+            size = int.from_bytes(self._read(4), "little")
+            answer: dict[str, Any] = json.loads(self._read(size))
+            return answer, self._read(2 * answer.get("samples", 0))
+        finally:
+            watch.cancel()
+
+    def _read(self, size: int) -> bytes:
+        stdout = self._popen.stdout
+        assert stdout is not None
+        try:
+            data = stdout.read(size)
+        except (OSError, ValueError) as error:
+            raise EOFError(str(error)) from None
+        if len(data) < size:
+            raise EOFError("its process ended")
+        return data
+
+    def stop(self) -> None:
+        """End it and close the pipes; again does nothing. Never waits for a sentence."""
+        with self._ending:
+            self._popen.kill()
+            self._popen.wait()
+            for pipe in (self._popen.stdin, self._popen.stdout):
+                assert pipe is not None
+                with contextlib.suppress(OSError):  # unsent bytes for a dead process
+                    pipe.close()
+
+
+def _utterance(text: str, voice: str, answer: Mapping[str, Any], sound: bytes, rate: int) -> Utterance:
+    samples = np.frombuffer(sound, "<i2")
+    end = samples.size / rate
+    marks: list[Mark] = [(str(name), at / rate) for name, at in answer["phones"]]
+    phones = to_phones(settled(marks, samples, rate), end, british=voice != "en-us")
+    if all(phone == SILENCE for phone in phones.schedule.phones):
+        raise UserError(f"Nothing in “{shortened(text)}” can be spoken: type at least one word.")
+    notes = [f"The sound {name!r} of the voice is unknown and became silence." for name in phones.unknown]
+    audio = Audio(samples.astype(np.float32) / np.float32(32768), rate)
+    audio.samples.flags.writeable = False
+    spoken = [(int(position), at / rate) for position, _, at in answer["words"]]
+    return Utterance(text, phones.schedule, audio, _words(text, spoken, phones.schedule), tuple(notes))
+
+
+def _words(text: str, spoken: list[tuple[int, float]], schedule: Schedule) -> tuple[Word, ...]:
+    """Each word between blanks from its first phone to its last.
+
+    spoken  where espeak began a word: the character, the second. A number has several; two words it
+            reads as one ("of the") have one, and are one word here.
+    """
+    phones, times = schedule.phones, schedule.times
+    onsets = [float(t) for t, phone in zip(times[:-1], phones, strict=True) if phone != SILENCE]
+    starts: list[tuple[str, float]] = []
+    for word, first, last in tokens(text):
+        at = next((second for position, second in spoken if first <= position < last), None)
+        if at is not None:
+            starts.append((word, min(onsets, key=lambda t: abs(t - at))))
+        elif starts and any(c.isalnum() for c in word):
+            starts[-1] = (f"{starts[-1][0]} {word}", starts[-1][1])
+    words = []
+    for i, (word, start) in enumerate(starts):
+        stop = starts[i + 1][1] if i + 1 < len(starts) else float(times[-1])
+        last = int(np.searchsorted(times, stop - 1e-9)) - 1
+        end = float(times[last]) if phones[last] == SILENCE else stop
+        if end > start:
+            words.append(Word(word, start, end))
+    return tuple(words)

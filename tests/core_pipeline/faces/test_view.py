@@ -1,0 +1,113 @@
+"""The camera turns, nears and shifts as the hand does, and never gets lost."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from core_pipeline.faces.face import Camera
+from core_pipeline.faces.view import View
+
+HOME = Camera(target=(0.0, 0.2, 0.1), distance=7.0, yaw=10.0, pitch=-5.0, fov=22.0)
+VIEW = View.of(HOME)
+PIXELS = st.floats(-5000, 5000)
+MOVES = st.lists(
+    st.one_of(
+        st.tuples(st.just("orbited"), st.tuples(PIXELS, PIXELS)),
+        st.tuples(st.just("zoomed"), st.tuples(st.floats(-500, 500))),
+        st.tuples(st.just("panned"), st.tuples(PIXELS, PIXELS, st.floats(0, 2000))),
+    ),
+    max_size=8,
+)
+
+
+def after(moves):
+    view = VIEW
+    for name, arguments in moves:
+        view = getattr(view, name)(*arguments)
+    return view
+
+
+def on_screen(view, point, size=(400, 400)):
+    """Pixel (x, y), +y down, where a point of the mesh is seen."""
+    x, y, _, w = view.projection(size, 1.5) @ view.matrix() @ (*point, 1.0)
+    return np.array([(x / w + 1) / 2 * size[0], (1 - y / w) / 2 * size[1]])
+
+
+@given(MOVES)
+def test_no_move_leads_astray(moves):
+    view = after(moves)
+    assert -180 < view.yaw <= 180
+    assert -85 <= view.pitch <= 85
+    assert 7.0 / 4 <= view.distance <= 7.0 * 4
+    assert max(abs(a - b) for a, b in zip(view.target, HOME.target, strict=True)) <= 3.5 + 1e-9
+    assert np.isfinite(view.matrix()).all()
+
+
+@given(MOVES)
+def test_reset_is_the_faces_own_view(moves):
+    assert after(moves).reset() == VIEW
+
+
+@given(MOVES)
+def test_the_matrix_neither_stretches_nor_mirrors(moves):
+    turn = after(moves).matrix()[:3, :3]
+    np.testing.assert_allclose(turn @ turn.T, np.eye(3), atol=1e-9)
+    assert np.linalg.det(turn) == pytest.approx(1)
+
+
+@given(MOVES)
+def test_the_target_is_in_the_middle_at_its_distance(moves):
+    view = after(moves)
+    np.testing.assert_allclose(view.matrix() @ (*view.target, 1.0), (0, 0, -view.distance, 1), atol=1e-9)
+
+
+def test_dragging_to_the_right_turns_the_face_to_the_right():
+    nose = (0.0, 0.2, 1.1)
+    assert on_screen(VIEW.orbited(40, 0), nose)[0] > on_screen(VIEW, nose)[0]
+
+
+def test_dragging_down_turns_the_face_down():
+    nose = (0.0, 0.2, 1.1)
+    assert on_screen(VIEW.orbited(0, 40), nose)[1] > on_screen(VIEW, nose)[1]
+
+
+def test_from_the_left_the_left_side_is_near():
+    left = View(yaw=-90.0).matrix() @ (-1.0, 0.0, 0.0, 1.0)
+    np.testing.assert_allclose(left, (0, 0, -4, 1), atol=1e-12)
+
+
+def test_from_above_the_crown_is_near():
+    crown = View(pitch=85.0).matrix() @ (0.0, 1.0, 0.0, 1.0)
+    assert crown[2] > -4.1
+
+
+@given(st.floats(-60, 60), st.floats(-60, 60))
+def test_the_face_follows_a_shift_pixel_by_pixel(dx, dy):
+    moved = on_screen(VIEW.panned(dx, dy, 400), HOME.target) - on_screen(VIEW, HOME.target)
+    np.testing.assert_allclose(moved, (dx, dy), atol=1e-6)
+
+
+@given(st.floats(0.1, 10))
+def test_zooming_in_and_out_again_changes_nothing(steps):
+    assert VIEW.zoomed(steps).zoomed(-steps).distance == pytest.approx(VIEW.distance)
+    assert VIEW.zoomed(steps).distance < VIEW.distance
+
+
+@pytest.mark.parametrize("size", [(400, 400), (300, 900), (900, 300)])
+def test_the_angle_of_view_spans_the_shorter_side(size):
+    view = View(fov=24.0, distance=5.0)
+    x, y = on_screen(view, (5 * math.tan(math.radians(12)), 0.0, 0.0), size) - np.array(size) / 2
+    assert x == pytest.approx(min(size) / 2)
+    assert y == pytest.approx(0)
+
+
+@given(MOVES)
+def test_what_is_in_front_of_the_camera_is_between_near_and_far(moves):
+    view = after(moves)
+    for point in np.vstack([np.eye(3), -np.eye(3)]):
+        _, _, z, w = view.projection((400, 400), 1.0) @ view.matrix() @ (*point, 1.0)
+        if w > 0.02 * view.distance:
+            assert -w <= z <= w

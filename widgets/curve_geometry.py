@@ -1,0 +1,127 @@
+"""Curves in pixels: where they lie on the canvas and how far they may be moved. No Qt."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core_pipeline.curves import MIN_GAP, Curve
+from core_pipeline.spline import interpolate
+
+Array = NDArray[np.float64]
+
+#: Pixels between two points of a drawn spline.
+SAMPLE_STEP = 3.0
+
+#: Grid of snapping, in normalised time and in weight.
+SNAP_STEP = 0.05
+
+
+@dataclass(frozen=True)
+class View:
+    """Normalised time and weight → pixels: x = left + width·t, y = bottom − height·v.
+
+    width and height are pixels per unit, > 0; `first` and `last` bound the visible times.
+    """
+
+    left: float = 0.0
+    width: float = 1.0
+    bottom: float = 0.0
+    height: float = 1.0
+    first: float = 0.0
+    last: float = 1.0
+
+    def points(self, t: Array, v: Array) -> Array:
+        """Pixels (n, 2) of n values."""
+        return np.column_stack((self.left + self.width * t, self.bottom - self.height * v))
+
+    def x(self, t: float) -> float:
+        """Pixel column of a time."""
+        return self.left + self.width * t
+
+    def y(self, v: float) -> float:
+        """Pixel row of a weight."""
+        return self.bottom - self.height * v
+
+    def t(self, x: float) -> float:
+        """Time at a pixel column; may lie outside [0, 1]."""
+        return (x - self.left) / self.width
+
+    def v(self, y: float) -> float:
+        """Weight at a pixel row; may lie outside [0, 1]."""
+        return (self.bottom - y) / self.height
+
+
+def spline_points(curve: Curve, kind: str, view: View) -> Array:
+    """Pixels (n, 2) of the visible part of the smooth curve, held flat outside its keys."""
+    lo, hi = np.clip((view.first, view.last), 0.0, 1.0)
+    count = max(2, int((hi - lo) * view.width / SAMPLE_STEP))
+    # The keys are among the samples, or a peak would flicker while it is dragged.
+    inside = curve.t[(curve.t > lo) & (curve.t < hi)]
+    at = np.sort(np.concatenate((np.linspace(lo, hi, count), inside)))
+    return view.points(at, interpolate(curve.t, curve.v, kind, at))
+
+
+def distance_to_line(points: Array, x: float, y: float) -> float:
+    """Pixels from (x, y) to the polyline through `points` (n, 2); infinite for none."""
+    if len(points) == 0:
+        return float("inf")
+    target = np.array((x, y))
+    start, along = points[:-1], np.diff(points, axis=0)
+    if len(along) == 0:
+        return float(np.hypot(*(points[0] - target)))
+    length = np.maximum((along * along).sum(axis=1), 1e-12)
+    share = np.clip(((target - start) * along).sum(axis=1) / length, 0.0, 1.0)
+    offset = start + share[:, None] * along - target
+    return float(np.sqrt((offset * offset).sum(axis=1).min()))
+
+
+def nearest_key(points: Array, x: float, y: float) -> tuple[float, int]:
+    """(distance in pixels, index) of the point nearest to (x, y); `points` is not empty."""
+    distances = np.hypot(points[:, 0] - x, points[:, 1] - y)
+    index = int(distances.argmin())
+    return float(distances[index]), index
+
+
+def feasible(curves: Mapping[str, Curve], chosen: Mapping[str, Sequence[int]]) -> tuple[float, float, float, float]:
+    """How far the chosen keys may move as one body: (least dt, most dt, least dv, most dv).
+
+    They keep MIN_GAP from every key that stays, and remain within 0 and 1. No shift is always feasible,
+    even where keys already stand nearer than MIN_GAP.
+    """
+    dt_lo, dt_hi, dv_lo, dv_hi = -1.0, 1.0, -1.0, 1.0
+    for pose, indices in chosen.items():
+        t, v = curves[pose].t, curves[pose].v
+        moving = np.zeros(t.size + 2, dtype=bool)
+        moving[np.asarray(indices, dtype=np.intp) + 1] = True
+        # Walls: the neighbours that stay, and 0 and 1 beyond the ends.
+        left = np.concatenate(([0.0], t[:-1] + MIN_GAP))
+        right = np.concatenate((t[1:] - MIN_GAP, [1.0]))
+        at_left = moving[1:-1] & ~moving[:-2]
+        at_right = moving[1:-1] & ~moving[2:]
+        dt_lo = max(dt_lo, float(np.minimum(left - t, 0.0)[at_left].max()))
+        dt_hi = min(dt_hi, float(np.maximum(right - t, 0.0)[at_right].min()))
+        heights = v[moving[1:-1]]
+        dv_lo, dv_hi = max(dv_lo, -float(heights.min())), min(dv_hi, 1.0 - float(heights.max()))
+    return dt_lo, dt_hi, dv_lo, dv_hi
+
+
+def shifted(curve: Curve, indices: Sequence[int], dt: float, dv: float) -> Curve:
+    """With the keys at `indices` moved by a feasible shift; values come out tidy, to six decimals."""
+    t, v = curve.t.copy(), curve.v.copy()
+    at = np.asarray(indices, dtype=np.intp)
+    t[at] = np.clip(t[at] + dt, 0.0, 1.0)
+    v[at] = np.clip(v[at] + dv, 0.0, 1.0)
+    tidy = t.copy()
+    tidy[at] = np.round(t[at], 6)
+    v[at] = np.round(v[at], 6)
+    # Keys of an imported curve may stand too near for six decimals.
+    return Curve(tidy if (np.diff(tidy) > 0).all() else t, v)
+
+
+def snapped(value: float, magnets: Iterable[float]) -> float:
+    """The nearest of the grid lines and the magnets."""
+    return min((round(value / SNAP_STEP) * SNAP_STEP, *magnets), key=lambda candidate: abs(candidate - value))

@@ -1,0 +1,295 @@
+"""The stage overlay: every step of the pipeline over time, and the way back from any point to its bigram.
+
+"There are no black-box components" (section 3.2.4): hover to read a place, click to open the bigram that made it.
+
+    press or drag in Time      scrub            wheel                  zoom about the mouse
+    Shift+drag in Time         loop range       Shift+wheel, middle    pan
+    double-click Time, Home    see everything   click a row, Enter     open the bigram
+"""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent, QPoint, Qt, Signal
+from PySide6.QtGui import QFocusEvent, QHelpEvent, QKeyEvent, QMouseEvent, QWheelEvent
+from PySide6.QtWidgets import QToolTip, QWidget
+
+from core_pipeline.phonemes import EXAMPLES
+from core_pipeline.poses import MEANING
+
+from .stage_footer import ROW
+from .stage_picking import Reading, bigram_at, phone_at, read
+from .stage_rows import Row
+from .stage_view import StageView
+
+#: A press that moves no further than this many pixels is a click.
+CLICK = 3
+#: One notch of the wheel zooms by this factor.
+NOTCH = 1.25
+_LEFT, _MIDDLE = Qt.MouseButton.LeftButton, Qt.MouseButton.MiddleButton
+
+
+class StageOverlay(StageView):
+    """Rows of stages under the hand.
+
+    bigram_picked(index, time, pose)  a row was clicked where bigram `index` made the curve
+    scrubbed(time), scrub_finished(time)
+    pose_activated(pose)              a row's name was clicked
+    loop_range_changed(range)         (from, to) in seconds, or None
+    read_out(reading)                 a stage_picking.Reading under the mouse, or None
+    """
+
+    bigram_picked = Signal(int, float, str)
+    scrubbed = Signal(float)
+    scrub_finished = Signal(float)
+    pose_activated = Signal(str)
+    loop_range_changed = Signal(object)
+    read_out = Signal(object)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setMouseTracking(True)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setAccessibleName(self.tr("Pipeline stages"))
+        self.setAccessibleDescription(
+            self.tr(
+                "The curves of every pose after each stage. Left and Right step through the phones, Up and Down "
+                "through the poses, Enter opens the bigram under the playhead, plus and minus zoom, Home shows all."
+            )
+        )
+        self._gesture = ""
+        self._from = QPoint()
+        self._loop_before: tuple[float, float] | None = None
+
+    # Where is the mouse?
+
+    def _zone(self, at: QPoint) -> str:
+        """ "row", "name", or one of the black rows "time", "phone", "start"."""
+        if at.y() < self.rows_height:
+            return "name" if at.x() < self.axis.x0 - 2 else "row"
+        return ("time", "phone", "start")[min((at.y() - self.rows_height) // ROW, self.footer_rows - 1)]
+
+    def _row_at(self, at: QPoint) -> Row | None:
+        return next((row for row in self.rows if row.top <= at.y() < row.bottom), None)
+
+    # Mouse
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Qt's hook: begins scrubbing, a loop range, panning or a click."""
+        if self._stages is None or self._gesture:
+            return
+        self._from = event.position().toPoint()
+        zone = self._zone(self._from)
+        if event.button() == _MIDDLE:
+            self._gesture = "pan"
+            self.setCursor(Qt.CursorShape.ClosedHandCursor)
+        elif event.button() == _LEFT:
+            if zone == "time" and event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
+                self._gesture, self._loop_before = "loop", self._loop
+            elif zone == "time":
+                self._gesture = "scrub"
+                self.scrubbed.emit(self.axis.time(self._from.x()))
+            else:
+                self._gesture = zone
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        """Qt's hook: goes on with the gesture, or reads what is under the mouse."""
+        at = event.position().toPoint()
+        if self._stages is None:
+            return
+        if not self._gesture:
+            self._hover(at)
+        elif self._gesture == "scrub":
+            self.scrubbed.emit(self.axis.time(at.x()))
+        elif self._gesture == "pan":
+            self._set_axis(self.axis.panned(at.x() - self._from.x()))
+            self._from = at
+        elif self._gesture == "loop":
+            self.set_loop_range(self._swept(at))
+        elif self._gesture == "phone" and abs(at.x() - self._from.x()) > CLICK:
+            self._gesture = "scrub"
+            self.scrubbed.emit(self.axis.time(at.x()))
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        """Qt's hook: ends the gesture; a press that did not move was a click."""
+        if event.button() != (_MIDDLE if self._gesture == "pan" else _LEFT):
+            return
+        gesture, self._gesture = self._gesture, ""
+        at = event.position().toPoint()
+        if self._stages is None:
+            return
+        if gesture == "scrub":
+            self.scrub_finished.emit(self.axis.time(at.x()))
+        elif gesture == "loop":
+            swept = self._swept(at)
+            self.set_loop_range(self._loop_before)
+            self.loop_range_changed.emit(swept)
+        elif gesture == "pan":
+            self.unsetCursor()
+        elif gesture and (at - self._from).manhattanLength() <= 2 * CLICK:
+            self._click(gesture, at)
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        """Qt's hook: a double-click on Time shows everything."""
+        if event.button() == _LEFT and self._zone(event.position().toPoint()) == "time":
+            self.fit()
+
+    def leaveEvent(self, event: QEvent) -> None:
+        """Qt's hook."""
+        super().leaveEvent(event)
+        self._show_reading(None)
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        """Qt's hook: zooms about the mouse; with Shift, or turned sideways, pans."""
+        event.accept()
+        if self._stages is None:
+            return
+        turn = event.angleDelta()
+        aside = turn.x() or (turn.y() if event.modifiers() & Qt.KeyboardModifier.ShiftModifier else 0)
+        if aside:
+            self._set_axis(self.axis.panned(aside / 120 * 0.1 * (self.axis.x1 - self.axis.x0)))
+        elif turn.y():
+            about = self.axis.time(max(event.position().x(), self.axis.x0))
+            self._set_axis(self.axis.zoomed(NOTCH ** (turn.y() / 120), about))
+        self._hover(event.position().toPoint())
+
+    def _click(self, zone: str, at: QPoint) -> None:
+        row = self._row_at(at)
+        if zone == "name" and row is not None:
+            self.pose_activated.emit(row.pose)
+        elif zone == "row" and row is not None:
+            self._open(row.pose, self.axis.time(at.x()))
+        elif zone in {"phone", "start"} and self._stages is not None:
+            phone = phone_at(self._stages, self.axis.time(at.x()))
+            self._scrub_to(float(self._stages.schedule.times[phone]))
+
+    def _swept(self, at: QPoint) -> tuple[float, float] | None:
+        """The loop range from the press to here; none when the mouse did not move."""
+        if abs(at.x() - self._from.x()) <= CLICK:
+            return None
+        a, b = sorted((self.axis.time(self._from.x()), self.axis.time(at.x())))
+        return (a, b) if b > a else None
+
+    def _open(self, pose: str, time: float) -> None:
+        if self._stages is not None and (index := bigram_at(self._stages, pose, time)) is not None:
+            self.bigram_picked.emit(index, time, pose)
+
+    def _scrub_to(self, time: float) -> None:
+        self._set_axis(self.axis.revealing(time, time))
+        self.scrubbed.emit(time)
+        self.scrub_finished.emit(time)
+
+    # Reading
+
+    def _hover(self, at: QPoint) -> None:
+        zone, row = self._zone(at), self._row_at(at)
+        cursors = {"row": Qt.CursorShape.PointingHandCursor, "name": Qt.CursorShape.PointingHandCursor}
+        self.setCursor(cursors.get(zone, Qt.CursorShape.SplitHCursor if zone == "time" else Qt.CursorShape.ArrowCursor))
+        if self._stages is None or zone != "row" or row is None or at.x() > self.axis.x1:
+            self._show_reading(None)
+        else:
+            self._show_reading(read(self._stages, row.pose, self.axis.time(at.x())))
+
+    def _show_reading(self, reading: Reading | None) -> None:
+        if reading == self._reading:
+            return
+        old, self._reading = self._reading, reading
+        for pose in {r.pose for r in (old, reading) if r is not None}:
+            if (row := self.row_of(pose)) is not None:
+                self.update(0, row.top, self.width(), row.height)
+        self.read_out.emit(reading)
+
+    def event(self, event: QEvent) -> bool:
+        """Qt's hook: tooltips for pose names and phones."""
+        if event.type() == QEvent.Type.ToolTip and isinstance(event, QHelpEvent):
+            text = self._tip(event.pos())
+            if text:
+                QToolTip.showText(event.globalPos(), text, self)
+            else:
+                QToolTip.hideText()
+            return True
+        return super().event(event)
+
+    def _tip(self, at: QPoint) -> str:
+        zone, row = self._zone(at), self._row_at(at)
+        if self._stages is None:
+            return ""
+        if zone == "name" and row is not None:
+            meaning = MEANING.get(row.pose, "")
+            return f"{row.pose}: {meaning}" if meaning else row.pose
+        if zone == "time":
+            hidden = [pose for pose in self._lines if self.row_of(pose) is None] if self._mode != "one" else []
+            if at.x() < self.axis.x0 and hidden:
+                return self.tr("Not shown for want of room: %1").replace("%1", ", ".join(hidden))
+            return self.tr("Drag to scrub, Shift+drag for a loop range, double-click to see everything")
+        if zone == "phone" and at.x() >= self.axis.x0:
+            return self._phone_tip(phone_at(self._stages, self.axis.time(at.x())))
+        return ""
+
+    def _phone_tip(self, phone: int) -> str:
+        schedule = self._stages.schedule if self._stages is not None else None
+        if schedule is None:
+            return ""
+        name = schedule.phones[phone]
+        source = self._sources[phone] if len(self._sources) == len(schedule) else name
+        shown = name if source == name else f"{source} → {name}"
+        a, b = schedule.times[phone : phone + 2].tolist()
+        example = f" ({EXAMPLES[name]})" if name in EXAMPLES else ""
+        return f"{shown}{example}  {a:.3f} – {b:.3f} s"
+
+    # Keyboard
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Qt's hook; see the module's picture."""
+        key = Qt.Key(event.key())
+        if self._stages is None or not self._obey(key):
+            super().keyPressEvent(event)
+
+    def _obey(self, key: Qt.Key) -> bool:
+        steps = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1}
+        poses = {Qt.Key.Key_Up: -1, Qt.Key.Key_Down: 1}
+        zooms = {Qt.Key.Key_Plus: NOTCH, Qt.Key.Key_Equal: NOTCH, Qt.Key.Key_Minus: 1 / NOTCH}
+        if key in steps:
+            self._step(steps[key])
+        elif key in poses:
+            names = list(self._lines)
+            if names:
+                here = names.index(self.active_pose) + poses[key]
+                self.pose_activated.emit(names[min(max(here, 0), len(names) - 1)])
+        elif key in {Qt.Key.Key_Return, Qt.Key.Key_Enter}:
+            self._open(self.active_pose, self._playhead)
+        elif key in zooms:
+            axis = self.axis
+            about = self._playhead if axis.sees(self._playhead) else (axis.left + axis.right) / 2
+            self._set_axis(axis.zoomed(zooms[key], about))
+        elif key == Qt.Key.Key_Home:
+            self.fit()
+        elif key == Qt.Key.Key_Escape and self._gesture == "loop":
+            self._gesture = ""
+            self.set_loop_range(self._loop_before)
+        else:
+            return False
+        return True
+
+    def _step(self, way: int) -> None:
+        """To the next or the previous phone boundary."""
+        if self._stages is None:
+            return
+        times = self._stages.schedule.times.tolist()
+        if way > 0:
+            self._scrub_to(next((t for t in times if t > self._playhead + 1e-4), times[-1]))
+        else:
+            self._scrub_to(next((t for t in reversed(times) if t < self._playhead - 1e-4), times[0]))
+
+    def fit(self) -> None:
+        """See the whole utterance."""
+        self._set_axis(self.axis.fitted())
+
+    def focusInEvent(self, event: QFocusEvent) -> None:
+        """Qt's hook: the focus ring."""
+        super().focusInEvent(event)
+        self.update()
+
+    def focusOutEvent(self, event: QFocusEvent) -> None:
+        """Qt's hook: the focus ring."""
+        super().focusOutEvent(event)
+        self.update()

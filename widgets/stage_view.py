@@ -1,0 +1,414 @@
+"""What the stage overlay shows: a row per pose on one time axis, the black rows below, the playhead.
+
+Each row is a cached pixmap, redrawn only when its lines changed; the rows are composed into one sheet,
+so that moving the playhead copies two narrow strips of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+from PySide6.QtCore import QLine, QLineF, QPointF, QRect, QRectF, Qt
+from PySide6.QtGui import QColor, QFontMetrics, QPainter, QPaintEvent, QPen, QPixmap, QPolygonF, QResizeEvent
+from PySide6.QtWidgets import QWidget
+
+from core_pipeline.phonemes import SILENCE, Pair
+from core_pipeline.pipeline import Stages
+
+from . import theme
+from .stage_footer import ROW, Footer
+from .stage_layers import LAYERS, RowPlace, draw_ghost
+from .stage_lines import PoseLines, pose_lines
+from .stage_picking import Reading, curve_of
+from .stage_rows import MODES, Row, lay_out
+from .time_axis import TimeAxis
+
+_BOUNDARY = theme.mix(theme.BORDER, theme.BACKGROUND, 0.5)
+_SILENT = theme.mix(theme.SUNKEN, theme.BACKGROUND, 0.8)
+_CURRENT = theme.mix(theme.ACCENT, theme.BACKGROUND, 0.22)
+_SAME = theme.mix(theme.ACCENT, theme.BACKGROUND, 0.10)
+_BASE = theme.mix(theme.BORDER, theme.BACKGROUND, 0.75)
+_GRID = theme.mix(theme.BORDER, theme.BACKGROUND, 0.45)
+_STRIPE = theme.mix(theme.PANEL, theme.BACKGROUND, 0.9)
+#: Pixels right of the axis.
+_RIGHT = 10
+#: A row this tall (pixels) shows its scale.
+SCALED = 70
+
+
+class StageView(QWidget):
+    """Draws stages; takes values by set_… methods. Its child StageOverlay adds the hand."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self.setMinimumHeight(120)
+        self._stages: Stages | None = None
+        self._lines: dict[str, PoseLines] = {}
+        self._ghost: dict[str, PoseLines] = {}
+        self._sources: tuple[str, ...] = ()
+        self._active = ""
+        self._index: int | None = None
+        self._pair: Pair | None = None
+        self._playhead = 0.0
+        self._following = False
+        self._loop: tuple[float, float] | None = None
+        self._mode = MODES[0]
+        self._styles = theme.STAGE_STYLES
+        self._shown = frozenset(layer.name for layer in LAYERS if layer.default_on)
+        self._reading: Reading | None = None
+        self._name_font = theme.font(8.5)
+        self._bold_font = theme.font(9.0, bold=True)
+        self._small_font = theme.font(7.5)
+        self._hint_font = theme.font(11.0)
+        self._footer = Footer()
+        self._axis = TimeAxis()
+        self._rows: tuple[Row, ...] = ()
+        self._row_pixmaps: dict[str, tuple[object, QPixmap]] = {}
+        self._sheet: QPixmap | None = None
+
+    # Values come down
+
+    def set_stages(self, stages: Stages | None) -> None:
+        """Show another result; only the rows that look different are drawn anew."""
+        before = self._lines
+        self._stages = stages if stages is not None and len(stages.schedule) else None
+        self._lines = {} if self._stages is None else pose_lines(self._stages)
+        for pose in [p for p in self._row_pixmaps if p not in self._lines or not self._lines[p].same_as(before.get(p))]:
+            del self._row_pixmaps[pose]
+        self._reading = None
+        if self._stages is not None:
+            self._axis = self._axis.with_content(self._stages.schedule.start, self._stages.schedule.end)
+        self._lay_out()
+
+    def set_source_phones(self, phones: Sequence[str] | None) -> None:
+        """The language's phone for each phone of the schedule, such as "ae" for "ah"."""
+        self._sources = tuple(phones or ())
+        self._redraw()
+
+    def set_active_pose(self, pose: str) -> None:
+        """The pose whose row is tall."""
+        if pose != self._active:
+            self._active = pose
+            self._lay_out()
+
+    def set_current(self, index: int | None, pair: Pair | None = None) -> None:
+        """The open bigram: its number in the utterance, and its pair, of which every occurrence is tinted."""
+        if (index, pair) == (self._index, self._pair):
+            return
+        moved = index != self._index
+        self._index, self._pair = index, pair
+        span = self._span(index)
+        if moved and span is not None and not self._following:
+            self._set_axis(self._axis.revealing(*span))
+        self._redraw()
+
+    def set_playhead(self, t: float) -> None:
+        """Seconds; costs two narrow strips, unless the view has to turn the page."""
+        old = self._strips()
+        self._playhead = t
+        if self._following:
+            self._set_axis(self._axis.following(t))
+        for strip in (*old, *self._strips()):
+            self.update(strip)
+
+    def set_following(self, on: bool) -> None:
+        """Whether the view turns the page with the playhead."""
+        self._following = on
+
+    def set_ghost(self, stages: Stages | None) -> None:
+        """Another result, whose final curves are drawn grey below; None for none."""
+        before, self._ghost = self._ghost, {} if stages is None else pose_lines(stages)
+        for pose in {*before, *self._ghost}:
+            now = self._ghost.get(pose)
+            if (now is None) != (pose not in before) or (now is not None and not now.same_as(before.get(pose))):
+                self._row_pixmaps.pop(pose, None)
+        self._redraw()
+
+    def set_loop_range(self, loop: tuple[float, float] | None) -> None:
+        """The part that is played in a loop, in seconds."""
+        if loop != self._loop:
+            self._loop = loop
+            self._redraw()
+
+    def set_palette_safe(self, safe: bool) -> None:
+        """Whether the stages have colours that remain apart without full colour vision."""
+        self._styles = theme.STAGE_STYLES_CVD if safe else theme.STAGE_STYLES
+        self._row_pixmaps.clear()
+        self._redraw()
+
+    def set_shown(self, names: Iterable[str]) -> None:
+        """Which layers are drawn, by their names."""
+        shown = frozenset(names)
+        if shown != self._shown:
+            self._shown = shown
+            self._row_pixmaps.clear()
+            self._redraw()
+
+    def set_mode(self, mode: str) -> None:
+        """One of stage_rows.MODES."""
+        if mode not in MODES:
+            raise ValueError(f"no view mode {mode!r}")
+        self._mode = mode
+        self._lay_out()
+
+    # What is seen
+
+    @property
+    def axis(self) -> TimeAxis:
+        """Seconds and pixels."""
+        return self._axis
+
+    @property
+    def rows(self) -> tuple[Row, ...]:
+        """The rows that have room."""
+        return self._rows
+
+    @property
+    def active_pose(self) -> str:
+        """The tall row; the first pose of the set where the wanted one is not in it."""
+        return self._active if self._active in self._lines else next(iter(self._lines), "")
+
+    def row_of(self, pose: str) -> Row | None:
+        """A pose's row; None when it has no room."""
+        return next((row for row in self._rows if row.pose == pose), None)
+
+    def row_pixmap(self, row: Row) -> QPixmap:
+        """The row's curves on transparent ground, from the cache if nothing changed."""
+        key = (row.height, row.active, row.idle, self._axis, self.width(), self.devicePixelRatioF())
+        cached = self._row_pixmaps.get(row.pose)
+        if cached is None or cached[0] != key:
+            cached = self._row_pixmaps[row.pose] = (key, self._drawn_row(row))
+        return cached[1]
+
+    @property
+    def rows_height(self) -> int:
+        """Pixels above the black rows."""
+        return self.height() - self.footer_rows * ROW
+
+    @property
+    def footer_rows(self) -> int:
+        """Time, Phoneme and Start; fewer where the overlay is very low."""
+        return 3 if self.height() >= 130 else 2
+
+    # Layout
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Qt's hook."""
+        super().resizeEvent(event)
+        self._lay_out()
+
+    def _lay_out(self) -> None:
+        peaks = {pose: lines.peak for pose, lines in self._lines.items()}
+        self._rows = lay_out(tuple(self._lines), self.active_pose, peaks, self._mode, self.rows_height)
+        metrics = QFontMetrics(self._bold_font)
+        names = [*self._lines, *(title + "  +9" for title in self._footer.titles(3))]
+        gutter = 14 + max(metrics.horizontalAdvance(name) for name in names) + 14
+        self._axis = self._axis.with_pixels(float(min(gutter, self.width() // 3)), float(self.width() - _RIGHT))
+        self._redraw()
+
+    def _set_axis(self, axis: TimeAxis) -> None:
+        if axis != self._axis:
+            self._axis = axis
+            self._redraw()
+
+    def _redraw(self) -> None:
+        self._sheet = None
+        self.update()
+
+    def _span(self, index: int | None) -> tuple[float, float] | None:
+        """Seconds of bigram `index`; None where this utterance has no such bigram."""
+        if self._stages is None or index is None or not 0 <= index < len(self._stages.schedule) - 1:
+            return None
+        times = self._stages.schedule.times
+        return float(times[index]), float(times[index + 2])
+
+    def _strips(self) -> tuple[QRect, ...]:
+        """Where the playhead is painted."""
+        if self._stages is None or not self._axis.sees(self._playhead):
+            return ()
+        x = round(self._axis.px(self._playhead))
+        return QRect(x - 1, 0, 3, self.height()), QRect(x - 5, 0, 11, 8)
+
+    # Painting
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Qt's hook: copies the sheet, then paints what moves."""
+        painter = QPainter(self)
+        if self._stages is None:
+            self._paint_hint(painter)
+        else:
+            if self._sheet is None:
+                self._sheet = self._composed(self._stages)
+            painter.drawPixmap(0, 0, self._sheet)
+            self._paint_reading(painter, self._stages)
+            self._paint_playhead(painter)
+        if self.hasFocus():
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+            painter.setPen(QPen(theme.ACCENT, 1))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.drawRect(self.rect().adjusted(0, 0, -1, -1))
+        painter.end()
+
+    def _paint_hint(self, painter: QPainter) -> None:
+        painter.fillRect(self.rect(), theme.BACKGROUND)
+        painter.setFont(self._hint_font)
+        painter.setPen(theme.MUTED)
+        text = self.tr("Type a sentence above to see what the pipeline makes of your curves")
+        painter.drawText(self.rect(), Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap, text)
+
+    def _paint_playhead(self, painter: QPainter) -> None:
+        if not self._axis.sees(self._playhead):
+            return
+        x = round(self._axis.px(self._playhead))
+        painter.fillRect(x, 0, 1, self.height(), theme.PLAYHEAD)
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(theme.PLAYHEAD)
+        painter.drawPolygon(QPolygonF([QPointF(x - 4, 0), QPointF(x + 5, 0), QPointF(x + 0.5, 7)]))
+
+    def _paint_reading(self, painter: QPainter, stages: Stages) -> None:
+        """Under the mouse: the curve that made this place, and the final weight."""
+        reading = self._reading
+        row = None if reading is None else self.row_of(reading.pose)
+        if reading is None or row is None:
+            return
+        place = self._place(row)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
+        painter.setClipRect(QRectF(self._axis.x0 - 2, row.top, self._axis.x1 - self._axis.x0 + 4, row.height))
+        curve = None if reading.index is None else curve_of(stages, reading.index, reading.pose)
+        if curve is not None:
+            pen = QPen(theme.mix(self._styles["red"].colour, theme.BRIGHT, 0.75), 2)
+            pen.setCapStyle(Qt.PenCapStyle.SquareCap)
+            painter.setPen(pen)
+            x, y = (values.tolist() for values in place.points(curve.t, curve.v))
+            painter.drawLines(
+                [
+                    QLineF(*ends)
+                    for ends in zip(x[:-1], y[:-1], x[1:], y[1:], strict=True)
+                    if ends[1] != ends[3] or ends[1] < place.base
+                ]
+            )
+        at = QPointF(self._axis.px(reading.time), place.base - place.tall * reading.values[-1])
+        painter.setPen(QPen(theme.BACKGROUND, 1))
+        painter.setBrush(theme.BRIGHT)
+        painter.drawEllipse(at, 3.2, 3.2)
+        painter.setClipping(False)
+
+    def _pixmap(self, height: int) -> QPixmap:
+        ratio = self.devicePixelRatioF()
+        pixmap = QPixmap(round(self.width() * ratio), round(height * ratio))
+        pixmap.setDevicePixelRatio(ratio)
+        return pixmap
+
+    def _composed(self, stages: Stages) -> QPixmap:
+        sheet = self._pixmap(self.height())
+        sheet.fill(theme.BACKGROUND)
+        painter = QPainter(sheet)
+        for row in self._rows[1::2]:
+            painter.fillRect(0, row.top, self.width(), row.height, _STRIPE)
+        axis, tall = self._axis, self.rows_height
+        wide = round(axis.x1 - axis.x0) + _RIGHT
+        painter.setClipRect(QRect(round(axis.x0) - 4, 0, wide + 4, tall))
+        self._draw_spans(painter, stages, tall)
+        self._draw_boundaries(painter, stages, tall)
+        painter.setClipping(False)
+        for row in self._rows:
+            painter.drawPixmap(0, row.top, self.row_pixmap(row))
+        self._draw_loop(painter, tall)
+        box = QRect(0, tall, self.width(), self.height() - tall)
+        lit = frozenset() if self._span(self._index) is None else frozenset((self._index, self._index + 1))
+        sources = self._sources if len(self._sources) == len(stages.schedule) else ()
+        self._footer.draw(painter, box, axis, stages, sources, lit, self._loop)
+        if hidden := len(self._lines) - len(self._rows) if self._mode != "one" else 0:
+            painter.setFont(self._small_font)
+            painter.setPen(theme.WEAK)
+            aside = QRect(0, tall, round(axis.x0) - 8, ROW - 1)
+            painter.drawText(aside, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight, f"+{hidden}")
+        painter.end()
+        return sheet
+
+    def _draw_spans(self, painter: QPainter, stages: Stages, tall: int) -> None:
+        """Silence, every occurrence of the open bigram, and the open one."""
+        times, phones = stages.schedule.times, stages.schedule.phones
+
+        def shade(a: float, b: float, colour: QColor) -> None:
+            if b > self._axis.left and a < self._axis.right:
+                x0, x1 = round(self._axis.px(a)), round(self._axis.px(b))
+                painter.fillRect(x0, 0, max(x1 - x0, 1), tall, colour)
+
+        for i, phone in enumerate(phones):
+            if phone == SILENCE:
+                shade(times[i], times[i + 1], _SILENT)
+        if self._pair is not None:
+            for i, pair in enumerate(stages.schedule.pairs()):
+                if pair == self._pair:
+                    shade(times[i], times[i + 2], _SAME)
+        if (span := self._span(self._index)) is not None:
+            shade(*span, _CURRENT)
+
+    def _draw_boundaries(self, painter: QPainter, stages: Stages, tall: int) -> None:
+        times = stages.schedule.times
+        seen = times[(times >= self._axis.left) & (times <= self._axis.right)]
+        x = np.unique(np.rint(self._axis.px(seen))).astype(int)
+        if x.size and x.size * 4 < self._axis.x1 - self._axis.x0:
+            painter.setPen(_BOUNDARY)
+            painter.drawLines([QLine(k, 0, k, tall) for k in x.tolist()])
+
+    def _draw_loop(self, painter: QPainter, tall: int) -> None:
+        if self._loop is None:
+            return
+        pen = QPen(theme.LINK, 1)
+        pen.setDashPattern([2, 3])
+        painter.setPen(pen)
+        for t in self._loop:
+            if self._axis.sees(t):
+                x = round(self._axis.px(t))
+                painter.drawLine(x, 0, x, tall + ROW)
+
+    def _place(self, row: Row) -> RowPlace:
+        above = min(max(row.height // 10, 2), 8)
+        below = 3 if row.height < 40 else 5
+        return RowPlace(self._axis, row.bottom - below - 0.5, float(row.height - above - below))
+
+    def _drawn_row(self, row: Row) -> QPixmap:
+        pixmap = self._pixmap(row.height)
+        pixmap.fill(Qt.GlobalColor.transparent)
+        painter = QPainter(pixmap)
+        self._draw_name(painter, row)
+        painter.translate(0, -row.top)
+        place, lines, axis = self._place(row), self._lines[row.pose], self._axis
+        if not row.idle:
+            base = round(place.base + 0.5)
+            painter.fillRect(QRect(round(axis.x0), base, round(axis.x1 - axis.x0), 1), _BASE)
+        if row.height >= SCALED:
+            self._draw_scale(painter, place)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
+        painter.setClipRect(QRectF(axis.x0 - 2, row.top, axis.x1 - axis.x0 + 4, row.height))
+        if (ghost := self._ghost.get(row.pose)) is not None:
+            draw_ghost(painter, place, ghost)
+        for layer in LAYERS:
+            if layer.name in self._shown:
+                layer.draw(painter, place, lines, self._styles[layer.name])
+        painter.end()
+        return pixmap
+
+    def _draw_scale(self, painter: QPainter, place: RowPlace) -> None:
+        """Lines at half and full weight, with their values beside the axis."""
+        painter.setFont(self._small_font)
+        for value, text in ((0.5, ".5"), (1.0, "1")):
+            y = round(place.base - value * place.tall)
+            painter.fillRect(QRect(round(place.axis.x0), y, round(place.axis.x1 - place.axis.x0), 1), _GRID)
+            painter.setPen(theme.FAINT)
+            box = QRect(round(place.axis.x0) - 24, y - 7, 20, 14)
+            painter.drawText(box, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight, text)
+
+    def _draw_name(self, painter: QPainter, row: Row) -> None:
+        colour = theme.pose_colour(row.pose, row.index)
+        inset = 8 if row.height > 40 else 3
+        dim = theme.mix(colour, theme.BACKGROUND, 0.3) if row.idle and not row.active else colour
+        painter.fillRect(5, inset, 3, row.height - 2 * inset - 1, dim)
+        painter.setFont(self._bold_font if row.active else self._small_font if row.height < 17 else self._name_font)
+        painter.setPen(theme.BRIGHT if row.active else theme.FAINT if row.idle else theme.TEXT)
+        box = QRect(14, 0, round(self._axis.x0) - 16, row.height - 1)
+        painter.drawText(box, Qt.AlignmentFlag.AlignVCenter, row.pose)
