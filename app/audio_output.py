@@ -109,6 +109,8 @@ class AudioOutput(QObject):
         self._thread: threading.Thread | None = None
         self._opened = threading.Event()
         self._closed = False
+        self._starting = False
+        self._lost = False
 
     @property
     def available(self) -> bool:
@@ -137,6 +139,7 @@ class AudioOutput(QObject):
         """
         self.open()
         self._playback = Playback(audio, time, audio.duration if duration is None else duration, speed, loop)
+        self._starting = True
         self._jobs.put(self._start)
 
     def stop(self) -> None:
@@ -154,6 +157,8 @@ class AudioOutput(QObject):
         if stream is None or not blocks:
             return playback.start  # nothing of it has been handed out yet
         if not stream.active:
+            if self._starting:  # the stop of what played before is still under way
+                return playback.start
             self._lose()
             return None
         return heard(blocks, stream.time)
@@ -165,7 +170,7 @@ class AudioOutput(QObject):
         if thread is not None:
             self._jobs.put(self._shut)
             self._jobs.put(None)
-            thread.join(5)
+            thread.join(2)
         self._available, self._reason = False, self.tr("the audio device is closed")
         self._opened.set()
 
@@ -207,15 +212,15 @@ class AudioOutput(QObject):
 
     def _start(self) -> None:
         stream = self._stream
-        if stream is None or stream.active or self._playback is None:
-            return
-        import sounddevice
+        if stream is not None and not stream.active and self._playback is not None:
+            import sounddevice
 
-        try:
-            stream.stop()  # what ended by itself must be stopped before it can start again
-            stream.start()
-        except sounddevice.PortAudioError:
-            self._lose()
+            try:
+                stream.stop()  # what ended by itself must be stopped before it can start again
+                stream.start()
+            except sounddevice.PortAudioError:
+                self._lose()
+        self._starting = False
 
     def _rest(self) -> None:
         if self._stream is not None and self._playback is None and self._stream.active:
@@ -225,11 +230,12 @@ class AudioOutput(QObject):
 
     def _shut(self) -> None:
         stream, self._stream = self._stream, None
-        if stream is not None:
+        if stream is not None and not self._lost:  # closing a lost device may never return
             stream.close()
 
     def _lose(self) -> None:
         if self._available:
+            self._lost = True
             self._available, self._reason = False, self.tr("the audio device stopped")
             self.lost.emit(self._reason)
 

@@ -11,7 +11,6 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
     QMainWindow,
-    QScrollArea,
     QSizePolicy,
     QSplitter,
     QToolBar,
@@ -36,6 +35,9 @@ from .actions import Actions
 from .document import Document
 
 _Area = Qt.DockWidgetArea
+
+#: In a window lower than this some docks share one place, as tabs.
+LOW = 860
 
 
 class MainWindow(QMainWindow):
@@ -99,15 +101,21 @@ class MainWindow(QMainWindow):
             self.default_layout()
 
     def default_layout(self) -> None:
-        """The docks' sizes for this window's size."""
+        """Docks for this window's size: side by side where there is room, behind one another where not."""
         width, height = self.width(), self.height()
-        left, right = min(420, width // 4), min(350, width // 4)
+        if height < LOW:
+            self.tabifyDockWidget(self.bigrams_dock, self.weak_dock)
+            self.tabifyDockWidget(self.preview_dock, self.weights_dock)
+            self.tabifyDockWidget(self.weights_dock, self.settings_dock)
+            self.bigrams_dock.raise_()
+            self.preview_dock.raise_()
+        left, right = min(420, width // 4), min(400, width // 4)
         self.resizeDocks([self.bigrams_dock, self.preview_dock], [left, right], Qt.Orientation.Horizontal)
         self.resizeDocks([self.stages_dock], [int(height * 0.34)], Qt.Orientation.Vertical)
-        upper = int(height * 0.58)
-        self.resizeDocks(
-            [self.preview_dock, self.weights_dock], [upper * 3 // 5, upper * 2 // 5], Qt.Orientation.Vertical
-        )
+        if height >= LOW:
+            upper = int(height * 0.58)
+            self.resizeDocks([self.bigrams_dock, self.weak_dock], [upper - 120, 120], Qt.Orientation.Vertical)
+            self.resizeDocks([self.preview_dock, self.weights_dock], [upper - 190, 190], Qt.Orientation.Vertical)
 
     def _toolbar(self) -> None:
         bar = QToolBar(self.tr("Sentence"))
@@ -146,26 +154,17 @@ class MainWindow(QMainWindow):
         self.setCentralWidget(centre)
 
     def _docks(self) -> None:
-        bigrams = QSplitter(Qt.Orientation.Vertical)
-        bigrams.addWidget(self.picker)
-        bigrams.addWidget(self.weak_list)
-        bigrams.setStretchFactor(0, 3)
-        bigrams.setStretchFactor(1, 1)
-        bigrams.setChildrenCollapsible(False)
-        settings = QScrollArea()
-        settings.setWidgetResizable(True)
-        settings.setFrameShape(QScrollArea.Shape.NoFrame)
-        settings.setWidget(self.settings_panel)
-        self.bigrams_dock = self._dock(self.tr("Bigrams"), bigrams, _Area.LeftDockWidgetArea)
+        self.bigrams_dock = self._dock(self.tr("Bigrams"), self.picker, _Area.LeftDockWidgetArea)
+        self.weak_dock = self._dock(self.tr("Weak bigrams"), self.weak_list, _Area.LeftDockWidgetArea)
         self.preview_dock = self._dock(self.tr("Preview"), self.face_view, _Area.RightDockWidgetArea)
         self.weights_dock = self._dock(self.tr("Pose weights"), self.weights, _Area.RightDockWidgetArea)
-        self.settings_dock = self._dock(self.tr("Pipeline settings"), settings, _Area.RightDockWidgetArea)
+        self.settings_dock = self._dock(self.tr("Pipeline settings"), self.settings_panel, _Area.RightDockWidgetArea)
         self.stages_dock = self._dock(self.tr("Pipeline stages"), self.stage_panel, _Area.BottomDockWidgetArea)
         self.tabifyDockWidget(self.weights_dock, self.settings_dock)
         self.weights_dock.raise_()
         menu = self.actions_.view_menu
         menu.addSeparator()
-        for dock in (self.bigrams_dock, self.preview_dock, self.weights_dock, self.settings_dock, self.stages_dock):
+        for dock in self.findChildren(QDockWidget):
             menu.addAction(dock.toggleViewAction())
 
     def _dock(self, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:

@@ -115,7 +115,7 @@ class Wiring(QObject):
         w.picker.picked.connect(self.open_bigram)
         w.picker.search_wanted.connect(self._search_word)
         self._search.spoken.connect(self._word_found)
-        self._search.failed.connect(self._say)
+        self._search.failed.connect(self._word_not_found)
         w.weak_list.picked.connect(self._open_weak)
         w.stage_panel.bigram_picked.connect(self._open_from_overlay)
         w.stage_panel.scrubbed.connect(self._preview.scrub)
@@ -490,6 +490,10 @@ class Wiring(QObject):
         curve_set = self._document.curve_set
         schedule = utterance.schedule.mapped(curve_set.phonemes, curve_set.phoneme_map)
         self._window.picker.set_matches([p for p in schedule.pairs() if SILENCE not in p and curve_set.has_pair(p)])
+
+    def _word_not_found(self, reason: str) -> None:
+        self._window.picker.set_matches([])
+        self._say(reason)
 
     # ── the face ─────────────────────────────────────────────────────────────────────────────────
 

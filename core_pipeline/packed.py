@@ -116,7 +116,7 @@ class PackedSet:
     @classmethod
     def of(cls, curve_set: CurveSet) -> PackedSet:
         """Pack a set; 441 bigrams take about a millisecond once their curves have been closed."""
-        number = {phone: i for i, phone in enumerate((*curve_set.phonemes, SILENCE))}
+        number = {phone: i for i, phone in enumerate(dict.fromkeys((*curve_set.phonemes, SILENCE)))}
         rows = len(curve_set.bigrams)
         row_of = np.full((len(number) + 1, len(number) + 1), rows, np.intp)
         poses = curve_set.poses

@@ -14,7 +14,7 @@ import sys
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Literal, NamedTuple
 
 import msgspec
 
@@ -32,7 +32,7 @@ DECIMALS = 3
 
 Weight = Annotated[float, msgspec.Meta(ge=0, le=1)]
 Time = Annotated[float, msgspec.Meta(ge=0, le=1)]
-#: When a target peaks. "meeting" is where the two phones meet: targets that give way go there.
+#: When a target peaks. "meeting" is where the two phones meet: targets that give way to the neighbour go there.
 Moment = Literal["early", "mid", "late", "meeting"]
 #: Pose → strength, or moment → strength for a phone that moves.
 Row = dict[str, Weight | dict[Moment, Weight]]
@@ -65,6 +65,13 @@ class Times(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     second_after_silence: Moments
 
 
+class Part(NamedTuple):
+    """One phone's keys for one pose in a pair: `held` at its peaks, `slope` towards the other phone, falling to 0."""
+
+    held: list[Key]
+    slope: list[Key]
+
+
 class Reach(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     """How long a slope takes from a peak to 0."""
 
@@ -73,7 +80,7 @@ class Reach(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
 
 class Closures(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
-    """The plateau of poses whose lips touch: (time, fraction of the strength) as first phone."""
+    """The plateau of poses whose lips touch: (time, fraction of the strength) as first phone; somewhere 1."""
 
     poses: tuple[str, ...]
     first: tuple[tuple[Time, Weight], ...]
@@ -115,6 +122,9 @@ def read_recipe(path: Path) -> Recipe:
         for phone in rows:
             if phone not in recipe.phonemes:
                 raise UserError(f"{path}: [{section}] has {phone!r}, which is not among the phonemes: correct it.")
+    for stroke in (recipe.closures.first, recipe.closures.first_before_silence):
+        if not any(fraction == 1 for _, fraction in stroke):
+            raise UserError(f"{path}: a stroke in [closures] never reaches 1: give it a key at 1.")
     named: list[tuple[str, Iterable[str]]] = [("closures", recipe.closures.poses)]
     for phone, poses in [*named, *recipe.phones.items(), *recipe.beside.items()]:
         for pose in poses:
@@ -188,33 +198,36 @@ def _give_way(row: Targets, limits: Mapping[str, float], far: Moment) -> Targets
     return given
 
 
-def _first_part(recipe: Recipe, pose: str, strengths: Strengths, *, alone: bool) -> list[Key]:
-    """Keys of the first phone, from its first peak to where it is 0 again; none without a target.
-
-    alone  the other phone is silence
-    """
+def _first_part(recipe: Recipe, pose: str, strengths: Strengths, *, alone: bool) -> Part:
+    """The first phone's keys; `alone` when the other is silence."""
     if not strengths:
-        return []
+        return Part([], [])
     if pose in recipe.closures.poses:
         stroke = recipe.closures.first_before_silence if alone else recipe.closures.first
-        return [(t, fraction * max(strengths.values())) for t, fraction in stroke]
+        keys = [(t, fraction * max(strengths.values())) for t, fraction in stroke]
+        fall = 1 + max(i for i, (_, fraction) in enumerate(stroke) if fraction == 1)
+        return Part(keys[:fall], keys[fall:])
     peaks = (recipe.times.first_before_silence if alone else recipe.times.first).peaks(strengths)
-    return [*peaks, (peaks[-1][0] + (recipe.reach.silence if alone else recipe.reach.usual), 0.0)]
+    return Part(peaks, [(peaks[-1][0] + (recipe.reach.silence if alone else recipe.reach.usual), 0.0)])
 
 
-def _second_part(recipe: Recipe, pose: str, strengths: Strengths, *, alone: bool) -> list[Key]:
-    """Keys of the second phone, from where it leaves 0 to its last peak; none without a target."""
+def _second_part(recipe: Recipe, pose: str, strengths: Strengths, *, alone: bool) -> Part:
+    """The second phone's keys; `alone` when the other is silence."""
     if not strengths:
-        return []
+        return Part([], [])
     if pose in recipe.closures.poses:
-        return [(1.0 - t, v) for t, v in reversed(_first_part(recipe, pose, strengths, alone=alone))]
+        mirror = _first_part(recipe, pose, strengths, alone=alone)
+        return Part([(1.0 - t, v) for t, v in mirror.held[::-1]], [(1.0 - t, v) for t, v in mirror.slope[::-1]])
     peaks = (recipe.times.second_after_silence if alone else recipe.times.second).peaks(strengths)
-    return [(peaks[0][0] - (recipe.reach.silence if alone else recipe.reach.usual), 0.0), *peaks]
+    return Part(peaks, [(peaks[0][0] - (recipe.reach.silence if alone else recipe.reach.usual), 0.0)])
 
 
-def _joined(before: Sequence[Key], after: Sequence[Key]) -> Curve:
-    """One curve that begins at time 0 and ends at 1; where both parts have keys, straight from peak to peak."""
-    keys = [*before[:-1], *after[1:]] if before and after else [*before, *after]
+def _joined(first: Part, second: Part) -> Curve:
+    """One curve from time 0 to 1; where both parts have keys, straight from peak to peak without their slopes."""
+    if first.held and second.held:
+        keys = [*first.held, *second.held]
+    else:
+        keys = [*first.held, *first.slope, *second.slope, *second.held]
     keys = [(round(t, DECIMALS), round(v, DECIMALS)) for t, v in keys if 0 <= t <= 1]
     if keys[0][0] > 0:
         keys.insert(0, (0.0, 0.0))

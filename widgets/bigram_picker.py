@@ -40,6 +40,8 @@ class BigramPicker(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self._waiting = False  # for an answer to `search_wanted`
+        self._open_first = False
         self.search = QLineEdit()
         self.search.setClearButtonEnabled(True)
         self.search.setPlaceholderText(self.tr("Find: f ah, f or fat"))
@@ -141,8 +143,12 @@ class BigramPicker(QWidget):
 
     def set_matches(self, pairs: Sequence[Pair]) -> None:
         """The answer to `search_wanted`: the bigrams of that word, in its order; none when it is unknown."""
-        if self.search.text().strip():
-            self._show_matches(list(dict.fromkeys(pairs)))
+        if not self._waiting:
+            return  # the search has moved on
+        self._waiting = False
+        self._show_matches(list(dict.fromkeys(pairs)))
+        if self._open_first:
+            self._step()
 
     @property
     def current(self) -> Pair | None:
@@ -162,6 +168,7 @@ class BigramPicker(QWidget):
         return super().eventFilter(watched, event)
 
     def _search(self, text: str, *, open_pair: bool = True) -> None:
+        self._waiting = self._open_first = False
         phonemes = self.grid.pairs.phonemes
         phones = phones_in(text, phonemes)
         if not text.strip():
@@ -181,6 +188,8 @@ class BigramPicker(QWidget):
                 self._step()
         else:
             self._show_matches([])
+            self.legend.set_message(self.tr("Looking for “%1”…").replace("%1", text.strip()))
+            self._waiting = True
             self.search_wanted.emit(text.strip())
 
     def _may_grow(self, text: str) -> bool:
@@ -209,3 +218,5 @@ class BigramPicker(QWidget):
             self._next += 1
             self.grid.set_current(pair)
             self.picked.emit(pair)
+        elif self._waiting:
+            self._open_first = True  # Enter came before the answer

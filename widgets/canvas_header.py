@@ -91,6 +91,16 @@ class CanvasHeader(QWidget):
         """The whole line without markup."""
         return " · ".join(part for part in (self._title.text(), *(plain for plain, _ in self._parts())) if part)
 
+    @property
+    def detail(self) -> str:
+        """What stands behind the title now, with markup."""
+        return self._detail.text()
+
+    @property
+    def buttons(self) -> tuple[QToolButton, ...]:
+        """The switches, from the left."""
+        return self._snap, self._frame
+
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Fits the line."""
         super().resizeEvent(event)

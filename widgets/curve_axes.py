@@ -22,12 +22,13 @@ def grid_values(first: float, last: float, pixels: float) -> tuple[float, list[f
     return step, [round(n * step, 4) for n in numbers]
 
 
-class UnitAxis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph has no types
+class UnitAxis(pg.AxisItem):
     """Numbers from 0 to 1 at the grid lines, none beyond."""
 
     def __init__(self, orientation: str) -> None:
         super().__init__(orientation, pen=pg.mkPen(theme.BORDER), textPen=pg.mkPen(theme.MUTED), maxTickLength=-4)
         self.enableAutoSIPrefix(False)
+        self.setStyle(hideOverlappingLabels=False)  # or the last number goes when half of it stands beyond
 
     def tickValues(self, minVal: float, maxVal: float, size: float) -> list[tuple[float, list[float]]]:
         """The grid's values; size in pixels."""

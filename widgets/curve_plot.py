@@ -26,7 +26,7 @@ LIMITS = QRectF(-0.25, -0.25, 1.5, 1.5)
 LEAST = 0.02
 
 
-class CurvePlot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
+class CurvePlot(pg.PlotWidget):
     """Shows what stands in a controller and tells it where things lie; the wheel zooms."""
 
     def __init__(self, control: CurveController, parent: QWidget | None = None) -> None:

@@ -38,6 +38,9 @@ class FaceView(QWidget):
     reset_wanted = Signal()
     """Double click, Home or the button: the face's own view again."""
 
+    cutaway_wanted = Signal(bool)
+    """The other button or C: the near half of the head hidden, to see the tongue."""
+
     retry_wanted = Signal()
     """The button under a message."""
 
@@ -57,13 +60,11 @@ class FaceView(QWidget):
         self._from: QPointF | None = None
         self._told = QSize()
 
-        self._reset = QToolButton(self)
-        self._reset.setIcon(theme.icon("camera-retake-outline", theme.MUTED))
-        self._reset.setAutoRaise(True)
-        self._reset.setToolTip(self.tr("Reset the view (Home)"))
-        self._reset.setAccessibleName(self.tr("Reset the view"))
-        self._reset.setCursor(Qt.CursorShape.ArrowCursor)
+        self._reset = self._button("camera-retake-outline", self.tr("Reset the view"), self.tr("Reset the view (Home)"))
         self._reset.clicked.connect(self.reset_wanted)
+        self._cut = self._button("content-cut", self.tr("Cut-away"), self.tr("Cut the head open to see the tongue (C)"))
+        self._cut.setCheckable(True)
+        self._cut.clicked.connect(self.cutaway_wanted)
 
         self._message = QLabel(self)
         self._message.setWordWrap(True)
@@ -100,12 +101,17 @@ class FaceView(QWidget):
             self._caption = caption
             self.update()
 
+    def set_cutaway(self, cutaway: bool) -> None:
+        """Whether the head is shown cut open."""
+        self._cut.setChecked(cutaway)
+
     def set_message(self, message: str, retry: bool = False) -> None:
         """Say why there is no face, over the last frame; "" to say nothing. With `retry` a button offers it."""
         self._message.setText(message)
         self._message.setVisible(bool(message))
         self._retry.setVisible(bool(message) and retry)
-        self._reset.setVisible(not message)
+        for button in (self._reset, self._cut):
+            button.setVisible(not message)
         self.update()
 
     def frame_size(self) -> QSize:
@@ -135,9 +141,12 @@ class FaceView(QWidget):
             painter.drawRect(QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5))
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Tell the new size, and keep the button in its corner."""
-        hint = self._reset.sizeHint()
-        self._reset.setGeometry(self.width() - hint.width() - _MARGIN // 2, _MARGIN // 2, hint.width(), hint.height())
+        """Tell the new size, and keep the buttons in their corner."""
+        x = self.width() - _MARGIN // 2
+        for button in (self._reset, self._cut):
+            hint = button.sizeHint()
+            x -= hint.width()
+            button.setGeometry(x, _MARGIN // 2, hint.width(), hint.height())
         self._tell_size()
 
     def event(self, event: QEvent) -> bool:
@@ -197,10 +206,20 @@ class FaceView(QWidget):
             self.zoomed.emit(-1.0)
         elif key == Qt.Key.Key_Home:
             self.reset_wanted.emit()
+        elif key == Qt.Key.Key_C and not event.modifiers():
+            self._cut.click()
         else:
             super().keyPressEvent(event)
 
-    # ── painting ──
+    # ── building and painting ──
+
+    def _button(self, icon: str, name: str, tip: str) -> QToolButton:
+        button = QToolButton(self)
+        button.setIcon(theme.icon(icon, theme.MUTED))
+        button.setAutoRaise(True)
+        button.setAccessibleName(name)
+        button.setToolTip(tip)
+        return button
 
     def _cropped(self) -> QRectF:
         """The middle part of the frame that has the widget's shape."""
@@ -217,7 +236,7 @@ class FaceView(QWidget):
     def _paint_caption(self, painter: QPainter) -> None:
         font = theme.font(8.0)
         painter.setFont(font)
-        room = self._reset.x() - 2 * _MARGIN
+        room = self._cut.x() - 2 * _MARGIN
         metrics = QFontMetricsF(font)
         text = metrics.elidedText(self._caption, Qt.TextElideMode.ElideRight, room)
         place = QPointF(_MARGIN, _MARGIN + metrics.ascent())

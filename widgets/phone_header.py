@@ -52,14 +52,15 @@ class PhoneHeader(QHeaderView):
         self.viewport().update()
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Every visible phone, clipped by nothing."""
+        """Every visible phone."""
         painter = QPainter(self.viewport())
         painter.fillRect(event.rect(), theme.WINDOW)
         cell = self.defaultSectionSize()
         painter.setFont(header_font(cell))
         across = self.orientation() == Qt.Orientation.Horizontal
-        upright = across and not fits_level(self.model().phonemes, cell)
-        for section in range(self.count()):
+        phones = [str(self.model().headerData(i, self.orientation())) for i in range(self.count())]
+        upright = across and not fits_level(phones, cell)
+        for section, phone in enumerate(phones):
             at = self.sectionViewportPosition(section)
             rect = QRect(at, 0, cell, self.height()) if across else QRect(0, at, self.width(), cell)
             if not rect.intersects(event.rect()):
@@ -69,7 +70,6 @@ class PhoneHeader(QHeaderView):
                 painter.setPen(theme.BRIGHT)
             else:
                 painter.setPen(theme.HIGHLIGHT if section in self._found else theme.MUTED)
-            phone = self.model().headerData(section, self.orientation())
             if upright:
                 painter.save()
                 painter.translate(rect.x(), rect.bottom() + 1)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import Generic, TypeVar
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWidget
@@ -53,7 +54,10 @@ class Row(QWidget):
         self.line.addWidget(sign)
 
 
-class RowTable(QWidget):
+R = TypeVar("R", bound=Row)
+
+
+class RowTable(QWidget, Generic[R]):
     """Rows are re-used for new values, so that the field with the keyboard focus outlives them.
 
     add_wanted, remove_wanted(row), row_changed(label)  what the user did; values are read from `rows`
@@ -63,10 +67,10 @@ class RowTable(QWidget):
     remove_wanted = Signal(int)
     row_changed = Signal(str)
 
-    def __init__(self, make_row: Callable[[], Row], add_text: str) -> None:
+    def __init__(self, make_row: Callable[[], R], add_text: str) -> None:
         super().__init__()
         self._make_row = make_row
-        self.rows: list[Row] = []
+        self.rows: list[R] = []
         self.add = QToolButton()
         self.add.setIcon(theme.icon("plus", theme.MUTED))
         self.add.setIconSize(QSize(14, 14))

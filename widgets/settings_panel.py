@@ -64,7 +64,8 @@ class SettingsPanel(QWidget):
         for name in PRESETS:
             self.preset.addItem(titles.get(name, name), name)
         self.preset.addItem(self.tr("Custom"), "")
-        self.preset.model().item(len(PRESETS)).setEnabled(False)
+        # shown where the values are no preset's; a flag of 0 keeps it from being chosen
+        self.preset.setItemData(len(PRESETS), 0, Qt.ItemDataRole.UserRole - 1)
         self.preset.activated.connect(lambda _: self._choose_preset())
 
         self.spline = pose_box()

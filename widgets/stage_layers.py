@@ -107,10 +107,13 @@ def _draw_magenta(painter: QPainter, place: RowPlace, lines: PoseLines, style: S
     line = place.seen(lines.stage["magenta"])
     if line.t.size < 2:
         return
-    # Separate square-capped segments: a wide antialiased polyline is twenty times as dear.
     crowded = line.t.size * CROWDED > place.axis.x1 - place.axis.x0
     width = 1.0 if crowded else style.width if place.tall >= LOW else max(style.width - 0.5, 1.0)
-    pen = QPen(style.colour, width)
+    _draw_bold(painter, place, line, QPen(style.colour, width))
+
+
+def _draw_bold(painter: QPainter, place: RowPlace, line: Line, pen: QPen) -> None:
+    # Separate square-capped segments: a wide antialiased polyline is twenty times as dear.
     pen.setCosmetic(True)
     pen.setCapStyle(Qt.PenCapStyle.SquareCap)
     painter.setPen(pen)
@@ -179,3 +182,8 @@ def draw_ghost(painter: QPainter, place: RowPlace, lines: PoseLines) -> None:
     """The final curve as it was before, in grey, under everything."""
     painter.setPen(QPen(theme.GHOST, 1))
     _draw_thin(painter, place, [lines.stage["magenta"]])
+
+
+def draw_origin(painter: QPainter, place: RowPlace, curve: Line, style: StageStyle) -> None:
+    """The one red curve that made the place under the mouse, brighter than the others."""
+    _draw_bold(painter, place, curve, QPen(theme.mix(style.colour, theme.BRIGHT, 0.75), 2))

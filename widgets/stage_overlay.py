@@ -14,6 +14,7 @@ from PySide6.QtGui import QFocusEvent, QHelpEvent, QKeyEvent, QMouseEvent, QWhee
 from PySide6.QtWidgets import QToolTip, QWidget
 
 from core_pipeline.phonemes import EXAMPLES
+from core_pipeline.pipeline import Stages
 from core_pipeline.poses import MEANING
 
 from .stage_footer import ROW
@@ -59,6 +60,15 @@ class StageOverlay(StageView):
         self._gesture = ""
         self._from = QPoint()
         self._loop_before: tuple[float, float] | None = None
+        self._mouse: QPoint | None = None
+
+    def set_stages(self, stages: Stages | None) -> None:
+        """Show another result, and read anew what is under the mouse."""
+        super().set_stages(stages)
+        if self._stages is None or self._mouse is None:
+            self._show_reading(None)
+        else:
+            self._hover(self._mouse)
 
     # Where is the mouse?
 
@@ -96,6 +106,7 @@ class StageOverlay(StageView):
         at = event.position().toPoint()
         if self._stages is None:
             return
+        self._mouse = at
         if not self._gesture:
             self._hover(at)
         elif self._gesture == "scrub":
@@ -111,10 +122,12 @@ class StageOverlay(StageView):
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """Qt's hook: ends the gesture; a press that did not move was a click."""
-        if event.button() != (_MIDDLE if self._gesture == "pan" else _LEFT):
+        if not self._gesture or event.button() != (_MIDDLE if self._gesture == "pan" else _LEFT):
             return
         gesture, self._gesture = self._gesture, ""
         at = event.position().toPoint()
+        if gesture == "pan":
+            self.unsetCursor()
         if self._stages is None:
             return
         if gesture == "scrub":
@@ -123,9 +136,7 @@ class StageOverlay(StageView):
             swept = self._swept(at)
             self.set_loop_range(self._loop_before)
             self.loop_range_changed.emit(swept)
-        elif gesture == "pan":
-            self.unsetCursor()
-        elif gesture and (at - self._from).manhattanLength() <= 2 * CLICK:
+        elif gesture != "pan" and (at - self._from).manhattanLength() <= 2 * CLICK:
             self._click(gesture, at)
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
@@ -136,6 +147,7 @@ class StageOverlay(StageView):
     def leaveEvent(self, event: QEvent) -> None:
         """Qt's hook."""
         super().leaveEvent(event)
+        self._mouse = None
         self._show_reading(None)
 
     def wheelEvent(self, event: QWheelEvent) -> None:

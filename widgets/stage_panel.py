@@ -19,7 +19,6 @@ from .stage_picking import Reading
 from .stage_rows import MODES
 from .time_axis import clock
 
-
 #: Pixels that the reading should have before the chips show their names.
 READING = 280
 
@@ -177,11 +176,14 @@ class StagePanel(QWidget):
             f"{theme.STAGE_STYLES[name].label.lower()} {bold % f'{value:.2f}'}"
             for name, value in (steps if full else steps[-1:])
         )
+        if reading.is_zero:  # then the bigram is only the nearest one
+            chain = self.tr("at rest")
         parts = [f"t {clock(reading.time)} s", reading.pose, chain] if full else [reading.pose, chain]
         if reading.pair is not None:
             pair = link % "–".join(phone.capitalize() for phone in reading.pair)
-            wish = self.tr("from %1 (click to open)") if full else self.tr("from %1")
-            parts.append(wish.replace("%1", pair))
+            wish = self.tr("%1 (click to open)") if full else "%1"
+            origin = pair if reading.is_zero else self.tr("from %1").replace("%1", pair)
+            parts.append(wish.replace("%1", origin))
         return space.join(parts)
 
     # Room

@@ -30,6 +30,11 @@ class Reading:
     index: int | None
     pair: Pair | None
 
+    @property
+    def is_zero(self) -> bool:
+        """Whether no stage moves the pose here."""
+        return max(self.values) <= INVISIBLE
+
     def steps(self) -> list[tuple[str, float]]:
         """(stage, weight) of the first stage and of each that changed the weight."""
         steps = [(STAGES[0], self.values[0])]

@@ -8,33 +8,24 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-import numpy as np
-from PySide6.QtCore import QLine, QLineF, QPointF, QRect, QRectF, Qt
-from PySide6.QtGui import QColor, QFontMetrics, QPainter, QPaintEvent, QPen, QPixmap, QPolygonF, QResizeEvent
+from PySide6.QtCore import QPointF, QRect, QRectF, Qt
+from PySide6.QtGui import QPainter, QPaintEvent, QPen, QPixmap, QPolygonF, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
-from core_pipeline.phonemes import SILENCE, Pair
+from core_pipeline.phonemes import Pair
 from core_pipeline.pipeline import Stages
 
+from . import stage_backdrop as backdrop
 from . import theme
 from .stage_footer import ROW, Footer
-from .stage_layers import LAYERS, RowPlace, draw_ghost
-from .stage_lines import PoseLines, pose_lines
+from .stage_layers import LAYERS, RowPlace, draw_ghost, draw_origin
+from .stage_lines import Line, PoseLines, pose_lines
 from .stage_picking import Reading, curve_of
 from .stage_rows import MODES, Row, lay_out
 from .time_axis import TimeAxis
 
-_BOUNDARY = theme.mix(theme.BORDER, theme.BACKGROUND, 0.5)
-_SILENT = theme.mix(theme.SUNKEN, theme.BACKGROUND, 0.8)
-_CURRENT = theme.mix(theme.ACCENT, theme.BACKGROUND, 0.22)
-_SAME = theme.mix(theme.ACCENT, theme.BACKGROUND, 0.10)
-_BASE = theme.mix(theme.BORDER, theme.BACKGROUND, 0.75)
-_GRID = theme.mix(theme.BORDER, theme.BACKGROUND, 0.45)
-_STRIPE = theme.mix(theme.PANEL, theme.BACKGROUND, 0.9)
 #: Pixels right of the axis.
 _RIGHT = 10
-#: A row this tall (pixels) shows its scale.
-SCALED = 70
 
 
 class StageView(QWidget):
@@ -58,10 +49,8 @@ class StageView(QWidget):
         self._styles = theme.STAGE_STYLES
         self._shown = frozenset(layer.name for layer in LAYERS if layer.default_on)
         self._reading: Reading | None = None
-        self._name_font = theme.font(8.5)
-        self._bold_font = theme.font(9.0, bold=True)
-        self._small_font = theme.font(7.5)
         self._hint_font = theme.font(11.0)
+        self._names = backdrop.RowNames()
         self._footer = Footer()
         self._axis = TimeAxis()
         self._rows: tuple[Row, ...] = ()
@@ -77,7 +66,6 @@ class StageView(QWidget):
         self._lines = {} if self._stages is None else pose_lines(self._stages)
         for pose in [p for p in self._row_pixmaps if p not in self._lines or not self._lines[p].same_as(before.get(p))]:
             del self._row_pixmaps[pose]
-        self._reading = None
         if self._stages is not None:
             self._axis = self._axis.with_content(self._stages.schedule.start, self._stages.schedule.end)
         self._lay_out()
@@ -202,9 +190,7 @@ class StageView(QWidget):
     def _lay_out(self) -> None:
         peaks = {pose: lines.peak for pose, lines in self._lines.items()}
         self._rows = lay_out(tuple(self._lines), self.active_pose, peaks, self._mode, self.rows_height)
-        metrics = QFontMetrics(self._bold_font)
-        names = [*self._lines, *(title + "  +9" for title in self._footer.titles(3))]
-        gutter = 14 + max(metrics.horizontalAdvance(name) for name in names) + 14
+        gutter = self._names.width([*self._lines, *(title + "  +9" for title in self._footer.titles(3))])
         self._axis = self._axis.with_pixels(float(min(gutter, self.width() // 3)), float(self.width() - _RIGHT))
         self._redraw()
 
@@ -278,17 +264,7 @@ class StageView(QWidget):
         painter.setClipRect(QRectF(self._axis.x0 - 2, row.top, self._axis.x1 - self._axis.x0 + 4, row.height))
         curve = None if reading.index is None else curve_of(stages, reading.index, reading.pose)
         if curve is not None:
-            pen = QPen(theme.mix(self._styles["red"].colour, theme.BRIGHT, 0.75), 2)
-            pen.setCapStyle(Qt.PenCapStyle.SquareCap)
-            painter.setPen(pen)
-            x, y = (values.tolist() for values in place.points(curve.t, curve.v))
-            painter.drawLines(
-                [
-                    QLineF(*ends)
-                    for ends in zip(x[:-1], y[:-1], x[1:], y[1:], strict=True)
-                    if ends[1] != ends[3] or ends[1] < place.base
-                ]
-            )
+            draw_origin(painter, place, Line(curve.t, curve.v), self._styles["red"])
         at = QPointF(self._axis.px(reading.time), place.base - place.tall * reading.values[-1])
         painter.setPen(QPen(theme.BACKGROUND, 1))
         painter.setBrush(theme.BRIGHT)
@@ -306,65 +282,29 @@ class StageView(QWidget):
         sheet.fill(theme.BACKGROUND)
         painter = QPainter(sheet)
         for row in self._rows[1::2]:
-            painter.fillRect(0, row.top, self.width(), row.height, _STRIPE)
+            painter.fillRect(0, row.top, self.width(), row.height, backdrop.STRIPE)
         axis, tall = self._axis, self.rows_height
         wide = round(axis.x1 - axis.x0) + _RIGHT
         painter.setClipRect(QRect(round(axis.x0) - 4, 0, wide + 4, tall))
-        self._draw_spans(painter, stages, tall)
-        self._draw_boundaries(painter, stages, tall)
+        span = self._span(self._index)
+        backdrop.draw_spans(painter, axis, stages.schedule, self._pair, span, tall)
+        backdrop.draw_boundaries(painter, axis, stages.schedule, tall)
         painter.setClipping(False)
         for row in self._rows:
             painter.drawPixmap(0, row.top, self.row_pixmap(row))
-        self._draw_loop(painter, tall)
+        if self._loop is not None:
+            backdrop.draw_loop(painter, axis, self._loop, tall + ROW)
         box = QRect(0, tall, self.width(), self.height() - tall)
-        lit = frozenset() if self._span(self._index) is None else frozenset((self._index, self._index + 1))
+        lit = frozenset() if span is None or self._index is None else frozenset((self._index, self._index + 1))
         sources = self._sources if len(self._sources) == len(stages.schedule) else ()
         self._footer.draw(painter, box, axis, stages, sources, lit, self._loop)
         if hidden := len(self._lines) - len(self._rows) if self._mode != "one" else 0:
-            painter.setFont(self._small_font)
+            painter.setFont(self._names.small)
             painter.setPen(theme.WEAK)
             aside = QRect(0, tall, round(axis.x0) - 8, ROW - 1)
             painter.drawText(aside, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight, f"+{hidden}")
         painter.end()
         return sheet
-
-    def _draw_spans(self, painter: QPainter, stages: Stages, tall: int) -> None:
-        """Silence, every occurrence of the open bigram, and the open one."""
-        times, phones = stages.schedule.times, stages.schedule.phones
-
-        def shade(a: float, b: float, colour: QColor) -> None:
-            if b > self._axis.left and a < self._axis.right:
-                x0, x1 = round(self._axis.px(a)), round(self._axis.px(b))
-                painter.fillRect(x0, 0, max(x1 - x0, 1), tall, colour)
-
-        for i, phone in enumerate(phones):
-            if phone == SILENCE:
-                shade(times[i], times[i + 1], _SILENT)
-        if self._pair is not None:
-            for i, pair in enumerate(stages.schedule.pairs()):
-                if pair == self._pair:
-                    shade(times[i], times[i + 2], _SAME)
-        if (span := self._span(self._index)) is not None:
-            shade(*span, _CURRENT)
-
-    def _draw_boundaries(self, painter: QPainter, stages: Stages, tall: int) -> None:
-        times = stages.schedule.times
-        seen = times[(times >= self._axis.left) & (times <= self._axis.right)]
-        x = np.unique(np.rint(self._axis.px(seen))).astype(int)
-        if x.size and x.size * 4 < self._axis.x1 - self._axis.x0:
-            painter.setPen(_BOUNDARY)
-            painter.drawLines([QLine(k, 0, k, tall) for k in x.tolist()])
-
-    def _draw_loop(self, painter: QPainter, tall: int) -> None:
-        if self._loop is None:
-            return
-        pen = QPen(theme.LINK, 1)
-        pen.setDashPattern([2, 3])
-        painter.setPen(pen)
-        for t in self._loop:
-            if self._axis.sees(t):
-                x = round(self._axis.px(t))
-                painter.drawLine(x, 0, x, tall + ROW)
 
     def _place(self, row: Row) -> RowPlace:
         above = min(max(row.height // 10, 2), 8)
@@ -374,15 +314,15 @@ class StageView(QWidget):
     def _drawn_row(self, row: Row) -> QPixmap:
         pixmap = self._pixmap(row.height)
         pixmap.fill(Qt.GlobalColor.transparent)
-        painter = QPainter(pixmap)
-        self._draw_name(painter, row)
-        painter.translate(0, -row.top)
         place, lines, axis = self._place(row), self._lines[row.pose], self._axis
+        painter = QPainter(pixmap)
+        self._names.draw(painter, row, axis.x0)
+        painter.translate(0, -row.top)
         if not row.idle:
             base = round(place.base + 0.5)
-            painter.fillRect(QRect(round(axis.x0), base, round(axis.x1 - axis.x0), 1), _BASE)
-        if row.height >= SCALED:
-            self._draw_scale(painter, place)
+            painter.fillRect(QRect(round(axis.x0), base, round(axis.x1 - axis.x0), 1), backdrop.BASE)
+        if row.height >= backdrop.SCALED:
+            self._names.draw_scale(painter, place)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
         painter.setClipRect(QRectF(axis.x0 - 2, row.top, axis.x1 - axis.x0 + 4, row.height))
         if (ghost := self._ghost.get(row.pose)) is not None:
@@ -392,23 +332,3 @@ class StageView(QWidget):
                 layer.draw(painter, place, lines, self._styles[layer.name])
         painter.end()
         return pixmap
-
-    def _draw_scale(self, painter: QPainter, place: RowPlace) -> None:
-        """Lines at half and full weight, with their values beside the axis."""
-        painter.setFont(self._small_font)
-        for value, text in ((0.5, ".5"), (1.0, "1")):
-            y = round(place.base - value * place.tall)
-            painter.fillRect(QRect(round(place.axis.x0), y, round(place.axis.x1 - place.axis.x0), 1), _GRID)
-            painter.setPen(theme.FAINT)
-            box = QRect(round(place.axis.x0) - 24, y - 7, 20, 14)
-            painter.drawText(box, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight, text)
-
-    def _draw_name(self, painter: QPainter, row: Row) -> None:
-        colour = theme.pose_colour(row.pose, row.index)
-        inset = 8 if row.height > 40 else 3
-        dim = theme.mix(colour, theme.BACKGROUND, 0.3) if row.idle and not row.active else colour
-        painter.fillRect(5, inset, 3, row.height - 2 * inset - 1, dim)
-        painter.setFont(self._bold_font if row.active else self._small_font if row.height < 17 else self._name_font)
-        painter.setPen(theme.BRIGHT if row.active else theme.FAINT if row.idle else theme.TEXT)
-        box = QRect(14, 0, round(self._axis.x0) - 16, row.height - 1)
-        painter.drawText(box, Qt.AlignmentFlag.AlignVCenter, row.pose)

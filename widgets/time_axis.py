@@ -77,8 +77,9 @@ class TimeAxis:
         """Seen from `left` on, moved so that nothing outside start and end is seen."""
         whole = self.end - self.start
         span = min(max(self.span if span is None else span, min(CLOSEST, whole)), whole)
+        if span >= whole * (1 - 1e-9):
+            return self.fitted()
         left = min(max(left, self.start), self.end - span)
-        # left + span may round to a hair below the end; then it would not count as fitted.
         right = self.end if left >= self.end - span else left + span
         return replace(self, left=left, right=right)
 

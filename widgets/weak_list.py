@@ -109,7 +109,7 @@ class WeakList(QWidget):
         self.list.empty_text = self.tr("No weak bigram in this sentence.")
         self.list.opened.connect(self._open)
         column = QVBoxLayout(self)
-        column.setContentsMargins(6, 0, 6, 6)
+        column.setContentsMargins(6, 4, 6, 6)
         column.setSpacing(4)
         column.addWidget(self._title)
         column.addWidget(self.list, 1)
@@ -125,10 +125,11 @@ class WeakList(QWidget):
         self._values = tuple(rows)
         with QSignalBlocker(self.list):
             self.list.clear()
-            self.list.addTopLevelItems([self._item(row) for row in self._values])
-            for i, row in enumerate(self._values):
+            items = [self._item(row) for row in self._values]
+            self.list.addTopLevelItems(items)
+            for item, row in zip(items, self._values, strict=True):
                 if row.pair == kept:
-                    self.list.setCurrentItem(self.list.topLevelItem(i))
+                    self.list.setCurrentItem(item)
                     break
         count = f" · {len(rows)}" if rows else ""
         self._title.setText(self.tr("Weak bigrams in this sentence") + count)

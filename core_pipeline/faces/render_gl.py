@@ -20,8 +20,10 @@ from .face import Face, Floats
 from .view import Background, View
 
 _SHADERS = Path(__file__).parent / "shaders"
+_WHOLE = ("tongue",)  # how the names of the parts begin that a cut-away leaves whole
 _SHADOW_SIZE = 512
 _KEY_FROM = np.array([-0.46, 0.64, 0.62]) / np.linalg.norm([-0.46, 0.64, 0.62])  # in the camera's space
+_OFF = 0.022  # of the shadow map's reach: five texels, as the shader reads that far
 _UPSIDE_DOWN = np.diag([1.0, -1.0, 1.0, 1.0])
 _SOFTWARE = ("llvmpipe", "softpipe", "swiftshader", "swrast", "software", "gdi generic")
 
@@ -40,6 +42,10 @@ class FaceMesh(Primitive):  # type: ignore[misc]
         # The base class keeps indices as float32; these go to the card as they are.
         self.corners: NDArray[np.uint32] = np.ascontiguousarray(face.triangles, np.uint32)
         self._moving = 0
+        whole = np.zeros(len(self.corners), bool)
+        for name, (first, count) in face.parts.items():
+            whole[first : first + count] = name.startswith(_WHOLE)
+        self._whole, self._cut = _runs(whole), _runs(~whole)  # as (first, count)
 
     def _add_to_context(self) -> None:
         self._vaid = GL.glGenVertexArrays(1)
@@ -70,10 +76,19 @@ class FaceMesh(Primitive):  # type: ignore[misc]
         GL.glBindBuffer(GL.GL_ARRAY_BUFFER, self._moving)
         GL.glBufferSubData(GL.GL_ARRAY_BUFFER, 0, vertices.nbytes, vertices)
 
-    def draw(self) -> None:
-        """With the program that is in use."""
+    def draw(self, cut: float, location: int) -> None:
+        """With the program that is in use, which has its uniform `cut` at `location`."""
         self._bind()
-        GL.glDrawElements(GL.GL_TRIANGLES, self.corners.size, GL.GL_UNSIGNED_INT, ctypes.c_void_p(0))
+        for runs, hidden in ((self._whole, 0.0), (self._cut, cut)):
+            GL.glUniform1f(location, hidden)
+            for first, count in runs:
+                GL.glDrawElements(GL.GL_TRIANGLES, 3 * count, GL.GL_UNSIGNED_INT, ctypes.c_void_p(12 * first))
+
+
+def _runs(chosen: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """Each run of True as (first, count)."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], chosen, [False]])))
+    return [(int(a), int(b - a)) for a, b in zip(edges[::2], edges[1::2], strict=True)]
 
 
 class _Target:
@@ -141,10 +156,14 @@ class _ShadowMap:
         GL.glDeleteTextures([self._texture])
 
 
-def _to_light(view: View, radius: float) -> NDArray[np.float64]:
-    """(4, 4) from the camera's space to the shadow map's, -1…1: as much of the face as is seen, and a little more."""
+def _reach(view: View, radius: float) -> float:
+    """Half the side of the shadow map in the mesh's unit: as much of the face as is seen, and a little more."""
     seen = view.distance * math.tan(math.radians(view.fov) / 2.0)
-    reach = min(1.25 * seen, radius + math.dist(view.target, (0.0, 0.0, 0.0)))
+    return min(1.25 * seen, radius + math.dist(view.target, (0.0, 0.0, 0.0)))
+
+
+def _to_light(view: View, reach: float) -> NDArray[np.float64]:
+    """(4, 4) from the camera's space to the shadow map's, -1…1."""
     right = np.cross((0.0, 1.0, 0.0), _KEY_FROM)
     right /= np.linalg.norm(right)
     matrix = np.eye(4)
@@ -201,18 +220,22 @@ class FaceGL(Renderer):  # type: ignore[misc]
         samples = min(samples, self._most_samples)
         target = self._target(width, height, samples)
         from_mesh = view.matrix()
-        to_light = _to_light(view, radius) @ from_mesh
+        # The side the camera is on. 0 is no cut: some drivers clip whether clipping is on or not.
+        cut = math.copysign(1.0, from_mesh[2, 0]) if view.cutaway else 0.0
+        reach = _reach(view, radius)
+        to_light = _to_light(view, reach) @ from_mesh
         GL.glEnable(GL.GL_DEPTH_TEST)
         GL.glDepthFunc(GL.GL_LEQUAL)
         GL.glDisable(GL.GL_BLEND)
         GL.glDisable(GL.GL_CULL_FACE)  # users' rigs have single-sided lashes and hair; the shader turns the normals
+        GL.glEnable(GL.GL_CLIP_DISTANCE0)
         if self._mesh is not None:
             self._mesh.update(vertices)
             self._shadow.begin()
             GL.glEnable(GL.GL_DEPTH_CLAMP)  # what is nearer to the light than the map reaches casts, too
             program = self._program("shadow")
             self._set_matrix(program, "to_light", to_light)
-            self._mesh.draw()
+            self._mesh.draw(cut, self._location(program, "cut"))
             GL.glDisable(GL.GL_DEPTH_CLAMP)
         GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, target.name)
         GL.glViewport(0, 0, width, height)
@@ -225,8 +248,10 @@ class FaceGL(Renderer):  # type: ignore[misc]
             self._set_matrix(program, "view", from_mesh)
             self._set_matrix(program, "projection", _UPSIDE_DOWN @ view.projection((width, height), radius))
             self._set_matrix(program, "to_light", to_light)
+            GL.glUniform1f(self._location(program, "off"), _OFF * reach)
             GL.glUniform3f(self._location(program, "key_from"), *_KEY_FROM)
-            self._mesh.draw()
+            self._mesh.draw(cut, self._location(program, "cut"))
+        GL.glDisable(GL.GL_CLIP_DISTANCE0)
         # Last, where no face is: what is hidden is not shaded.
         program = self._program("backdrop")
         GL.glUniform3f(self._location(program, "top"), *background.top)

@@ -21,9 +21,10 @@ _PAN_REACH = 0.5
 class View:
     """A camera about `target`; degrees, and the mesh's own unit. Every move gives a new, clamped view.
 
-    yaw    turns the camera to its right about +y, in (-180, 180]
-    pitch  lifts it, within ±85
-    home   the face's own camera, where `reset` goes back to; zoom and pan are limited around it
+    yaw      turns the camera to its right about +y, in (-180, 180]
+    pitch    lifts it, within ±85
+    home     the face's own camera, where `reset` goes back to; zoom and pan are limited around it
+    cutaway  hides the half of the head towards the camera, all but the tongue
     """
 
     yaw: float = 0.0
@@ -32,6 +33,7 @@ class View:
     target: tuple[float, float, float] = (0.0, 0.0, 0.0)
     fov: float = 24.0
     home: Camera = field(default_factory=Camera)
+    cutaway: bool = False
 
     @classmethod
     def of(cls, camera: Camera) -> View:
@@ -61,8 +63,8 @@ class View:
         return replace(self, target=(x, y, z))
 
     def reset(self) -> View:
-        """Back to the face's own camera."""
-        return View.of(self.home)
+        """Back to the face's own camera; a cut-away stays."""
+        return replace(View.of(self.home), cutaway=self.cutaway)
 
     def matrix(self) -> NDArray[np.float64]:
         """(4, 4) from the mesh's space to the camera's, which looks along its own -z."""

@@ -130,11 +130,11 @@ def yellow(line: Polyline, window: float) -> Polyline:
 
 
 def active(line: Polyline) -> list[tuple[float, float]]:
-    """The stretches of time in which a line is above 0."""
+    """The stretches of time in which a line is above 0; what rounding tears apart is one."""
     found: list[tuple[float, float]] = []
     for (t0, v0), (t1, v1) in zip(line, line[1:], strict=False):
         if v0 > TINY or v1 > TINY:
-            if found and found[-1][1] == t0:
+            if found and t0 - found[-1][1] < 1e-8:
                 found[-1] = (found[-1][0], t1)
             else:
                 found.append((t0, t1))

@@ -274,6 +274,8 @@ def test_a_word_is_asked_for_and_its_bigrams_are_ringed(qtbot, picker, picks):
     wanted = collect(picker.search_wanted)
     qtbot.keyClicks(picker.search, "fat")
     assert wanted == ["fa", "fat"]
+    assert picker.legend.message == "Looking for “fat”…"
+    picker.set_matches([])
     assert picker.legend.message == "No such bigram and no such word"
     picker.set_matches([F_AH, ("ah", "d"), F_AH])
     assert picker.legend.message == "2 bigrams · Enter steps through them"

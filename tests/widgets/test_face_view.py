@@ -36,12 +36,15 @@ def halves(width, height, left="#cc2200", right="#0022cc"):
     return image
 
 
-def drag(qtbot, view, button, modifier=Qt.KeyboardModifier.NoModifier):
-    qtbot.mousePress(view, button, modifier, CENTRE)
+def button(view, name):
+    return next(found for found in view.findChildren(QToolButton) if found.accessibleName() == name)
+
+
+def drag(qtbot, view, which, modifier=Qt.KeyboardModifier.NoModifier):
+    qtbot.mousePress(view, which, modifier, CENTRE)
     for step in (QPoint(160, 95), QPoint(175, 110)):
-        # QTest sends moves without modifiers and buttons unless given: build on press and release.
         qtbot.mouseMove(view, step)
-    qtbot.mouseRelease(view, button, modifier, QPoint(175, 110))
+    qtbot.mouseRelease(view, which, modifier, QPoint(175, 110))
     qtbot.mouseMove(view, QPoint(20, 20))
 
 
@@ -88,8 +91,22 @@ def test_double_click_home_and_button_want_the_reset(qtbot, view):
     reset = collect(view.reset_wanted)
     qtbot.mouseDClick(view, Qt.MouseButton.LeftButton, pos=CENTRE)
     qtbot.keyClick(view, Qt.Key.Key_Home)
-    qtbot.mouseClick(view.findChild(QToolButton), Qt.MouseButton.LeftButton)
+    qtbot.mouseClick(button(view, "Reset the view"), Qt.MouseButton.LeftButton)
     assert len(reset) == 3
+
+
+def test_button_and_key_want_the_cut_away(qtbot, view):
+    wanted = collect(view.cutaway_wanted)
+    qtbot.mouseClick(button(view, "Cut-away"), Qt.MouseButton.LeftButton)
+    qtbot.keyClick(view, Qt.Key.Key_C)
+    assert wanted == [(True,), (False,)]
+
+
+def test_showing_the_cut_away_is_not_a_wish(view):
+    wanted = collect(view.cutaway_wanted)
+    view.set_cutaway(True)
+    assert button(view, "Cut-away").isChecked()
+    assert wanted == []
 
 
 def test_keys_can_what_the_mouse_can(qtbot, view):
@@ -148,23 +165,23 @@ def test_the_caption_is_painted_and_can_be_taken_away(view):
 
 def test_a_message_says_why_and_offers_to_try_again(qtbot, view):
     view.set_message("The face cannot be drawn.", retry=True)
-    label, button = view.findChild(QLabel), view.findChild(QPushButton)
+    label, retry = view.findChild(QLabel), view.findChild(QPushButton)
     assert label.isVisible()
     assert label.text() == "The face cannot be drawn."
     assert label.geometry().intersects(view.rect())
     with qtbot.waitSignal(view.retry_wanted):
-        qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+        qtbot.mouseClick(retry, Qt.MouseButton.LeftButton)
 
 
 def test_without_retry_there_is_no_button_and_a_frame_clears_the_message(view):
     view.set_message("No face is loaded.")
-    label, button = view.findChild(QLabel), view.findChild(QPushButton)
+    label, retry = view.findChild(QLabel), view.findChild(QPushButton)
     assert label.isVisible()
-    assert not button.isVisible()
+    assert not retry.isVisible()
     view.set_frame(halves(300, 200))
     assert not label.isVisible()
 
 
 def test_every_control_has_a_name_for_screen_readers(view):
-    for control in (view, view.findChild(QToolButton), view.findChild(QPushButton), view.findChild(QLabel)):
+    for control in (view, *view.findChildren(QToolButton), view.findChild(QPushButton), view.findChild(QLabel)):
         assert control.accessibleName()

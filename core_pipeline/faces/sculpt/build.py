@@ -31,7 +31,7 @@ def sculpt(character: Character) -> Face:
 def pieces(character: Character) -> list[Piece]:
     """Everything the face is made of."""
     ball = character.eyes.radius * LID
-    clay = Solid((*character.clay, Blob(character.eyes.centre, (ball, ball, ball), 0.06, mirrored=True)))
+    clay = Solid((*character.clay, Blob(character.eyes.centre, (ball, ball, ball), 0.13, mirrored=True)))
     lips = Lips(character, clay)
     scalp = Solid(character.clay)
     return [

@@ -177,7 +177,7 @@ class Palette:
     lid: Point = (0.86, 0.58, 0.46)
     lip: Point = (0.80, 0.41, 0.38)
     inner_lip: Point = (0.55, 0.20, 0.20)
-    throat: Point = (0.12, 0.02, 0.03)
+    throat: Point = (0.10, 0.015, 0.025)
     teeth: Point = (0.97, 0.96, 0.92)
     gums: Point = (0.78, 0.36, 0.38)
     tongue: Point = (0.88, 0.42, 0.44)

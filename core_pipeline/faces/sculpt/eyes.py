@@ -8,7 +8,7 @@ from core_pipeline.faces.sculpt.character import Character
 from core_pipeline.faces.sculpt.piece import Piece, fan, grid, linear, mirror, paint
 from core_pipeline.faces.sculpt.sdf import Array
 
-AROUND = 32
+AROUND = 28
 
 
 def eyes(character: Character) -> list[Piece]:

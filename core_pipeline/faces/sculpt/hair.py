@@ -9,8 +9,8 @@ from core_pipeline.faces.sculpt.character import Character, Lock
 from core_pipeline.faces.sculpt.piece import Piece, Triangles, fan, grid, linear
 from core_pipeline.faces.sculpt.sdf import Array, Solid, smoothstep
 
-AROUND, UP = 88, 16
-LOCK_ROWS, LOCK_SIDES = 11, 8
+AROUND, UP = 76, 15
+LOCK_ROWS, LOCK_SIDES = 12, 8
 
 
 class Scalp:

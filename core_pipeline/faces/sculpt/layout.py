@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +27,10 @@ class Layout:
     triangles: Indices
     border: Indices
     eyes: tuple[Indices, Indices]
+
+    def neighbour_mean(self, values: Array) -> Array:
+        """(n, c) at each point the mean of its neighbours' values (n, c)."""
+        return _neighbour_mean(values, self.triangles)
 
 
 def lay_out(border: Array, eye_rings: list[Array], spacing: Callable[[Array], Array]) -> Layout:
@@ -63,9 +68,7 @@ def _lip_rings(half: Array) -> list[Array]:
     rings = []
     for number, gap in enumerate((0.024, 0.052, 0.086)):
         ring = half + gap * outward
-        if number % 2 == 0:
-            ring = np.concatenate([(ring[:-1] + ring[1:]) / 2])
-        rings.append(ring)
+        rings.append((ring[:-1] + ring[1:]) / 2 if number % 2 == 0 else ring)
     return rings
 
 
@@ -98,7 +101,7 @@ def _scatter(fixed: Array, lips: Array, loop: Array, spacing: Callable[[Array], 
     return points
 
 
-def _neighbour_mean(points: Array, triangles: NDArray[np.int32]) -> Array:
+def _neighbour_mean(points: Array, triangles: NDArray[Any]) -> Array:
     edges = np.unique(np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), 1), axis=0)
     total = np.zeros_like(points)
     number = np.zeros(len(points))

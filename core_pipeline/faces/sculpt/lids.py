@@ -8,8 +8,9 @@ from core_pipeline.faces.sculpt.character import Eyes
 from core_pipeline.faces.sculpt.sdf import Array, smoothstep
 
 LID = 1.075
-COLUMNS = 36
-CLOSED_AT = 0.12
+COLUMNS = 38
+CLOSED_AT = 0.36
+CLEAR = 1.03
 REACH = 1.9
 
 
@@ -52,7 +53,7 @@ class Lid:
         turn = turn * share
         c, s = np.cos(turn), np.sin(turn)
         # half way the straight line of a blendshape cuts inside the ball: the shut lid stands out to make up for it
-        out = 1 + 0.05 * share * np.abs(np.sin(turn))
+        out = np.maximum(1, 2 * CLEAR * eyes.radius / (size * np.cos(turn / 2)) - 1)
         turned = np.stack([local[:, 0], local[:, 1] * c + local[:, 2] * s, local[:, 2] * c - local[:, 1] * s], -1)
         closed: Array = self.centre + (turned * out[:, None]) @ self.axes
         return closed

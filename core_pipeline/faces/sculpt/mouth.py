@@ -15,10 +15,10 @@ from core_pipeline.faces.sculpt.sdf import Array, Solid, smoothstep
 # (along the visible lip: 0 where the lips meet, 1 at its border; out of the face: 1 is the lip's fullest point)
 PROFILE = np.array(
     [
-        (1.70, -2.30),
-        (1.00, -2.15),
-        (0.40, -1.75),
-        (0.08, -1.20),
+        (1.70, -1.75),
+        (1.00, -1.70),
+        (0.40, -1.50),
+        (0.08, -1.15),
         (0.00, -0.70),
         (0.00, -0.15),
         (0.09, 0.42),
@@ -116,7 +116,7 @@ class Lips:
             thickness = thickness + pose.rounded * (pose.ring - thickness)
             depth = depth + pose.rounded * (0.6 * pose.ring - depth)
             v = v * np.where(n < -0.6, 1 - 0.75 * pose.rounded, 1)
-            sag = sag * (1 - pose.rounded) - pose.rounded * 0.5 * pose.ring * np.clip(v, 0, None) ** 2
+            sag = sag * (1 - pose.rounded) - pose.rounded * 0.95 * pose.ring * np.clip(v, 0, None) ** 2
         roll = np.where(self.upper, pose.roll_upper, pose.roll_lower) * self.middle**0.7
         turned = np.radians(roll * (1 - smoothstep(0.55, 1.2, PROFILE[:, 0, None]) * (n > 0)))
         c, s = np.cos(turned)[..., None], np.sin(turned)[..., None]

@@ -7,13 +7,15 @@ import numpy as np
 from core_pipeline.faces.sculpt.character import Character, MouthPose
 from core_pipeline.faces.sculpt.fields import SmoothField
 from core_pipeline.faces.sculpt.layout import Layout, lay_out
-from core_pipeline.faces.sculpt.lids import COLUMNS, REACH, Lid
+from core_pipeline.faces.sculpt.lids import COLUMNS, LID, REACH, Lid
 from core_pipeline.faces.sculpt.mouth import BAG_RINGS, PROFILE, RINGS, Lips
 from core_pipeline.faces.sculpt.piece import Piece, Triangles, fan, grid, linear, turn
 from core_pipeline.faces.sculpt.sdf import Array, Solid, smoothstep
 
-EYE_RINGS = (1.0, 1.09, 1.20, 1.34, 1.52, 1.74)
-RIM = ((1.035, 0.985), (0.94, 0.99))
+# sizes of the almonds round the eye: those of the flat map, and (radius, size) of the lid's band inside the first of them
+EYE_RINGS = (1.14, 1.24, 1.36, 1.52, 1.74)
+BAND = ((LID, 1.065), (LID, 1.0), (1.035, 0.985), (0.94, 0.99))
+EDGE = 1  # the row of the band that is the lid's edge
 
 
 class Skin:
@@ -27,9 +29,9 @@ class Skin:
         forward /= np.linalg.norm(forward)
         self._axes = np.array([(1.0, 0.0, 0.0), np.cross(forward, (1.0, 0.0, 0.0)), forward])
         self.layout = self._lay_out()
+        self._ratio = self._eye_ratio()
         self.face = self._shape()
         self._number()
-        self._ratio = self._eye_ratio()
 
     def _to_map(self, points: Array) -> Array:
         away = (points - self._middle) @ self._axes.T
@@ -48,8 +50,8 @@ class Skin:
         steps = 2 * np.pi * np.arange(COLUMNS) / COLUMNS
         rings = []
         for number, size in enumerate(EYE_RINGS):
-            loop = self._to_map(self.lid.edge(steps + (number % 2) * np.pi / COLUMNS))
-            rings.append(loop.mean(0) + size * (loop - loop.mean(0)))
+            loop = self._to_map(self.lid.edge(steps + (number % 2) * np.pi / COLUMNS, size=EYE_RINGS[0]))
+            rings.append(loop.mean(0) + size / EYE_RINGS[0] * (loop - loop.mean(0)))
         border = self._to_map(self.lips.rest[-1])
         self._eye_loop = rings[0]
         eye = rings[0].mean(0)
@@ -59,7 +61,7 @@ class Skin:
             lips = np.min(np.linalg.norm(flat[:, None] - border[None], axis=-1), axis=1)
             lids = np.maximum(np.linalg.norm(flat - eye, axis=1) - 0.5, 0)
             tip = np.maximum(np.linalg.norm(flat - nose, axis=1) - 0.16, 0)
-            near: Array = np.minimum.reduce([0.045 + 0.13 * lips, 0.075 + 0.16 * lids, 0.042 + 0.22 * tip])
+            near: Array = np.minimum.reduce([0.045 + 0.10 * lips, 0.075 + 0.16 * lids, 0.034 + 0.20 * tip])
             return np.clip(near, 0, 0.24)
 
         return lay_out(border, rings, spacing)
@@ -71,24 +73,32 @@ class Skin:
         points = self.clay.cast(np.broadcast_to(self._middle, directions.shape), directions)
         points[self.layout.border] = self.lips.rest[-1]
         steps = 2 * np.pi * np.arange(COLUMNS) / COLUMNS
-        edge = self.lid.edge(steps)
+        edge = self.lid.edge(steps, size=EYE_RINGS[0])
         points[self.layout.eyes[0]], points[self.layout.eyes[1]] = edge, edge * (-1, 1, 1)
         fixed = np.zeros(len(flat), bool)
         fixed[self.layout.border] = True
         for eye in self.layout.eyes:
             fixed[eye] = True
-        fixed |= np.linalg.norm(flat, axis=1) > 2.2
-        triangles = self.layout.triangles
-        pairs = np.unique(np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), 1), axis=0)
+        fixed |= (np.linalg.norm(flat, axis=1) > 2.2) | (self._ratio < 1.45)
         for _ in range(12):
-            total, number = np.zeros_like(points), np.zeros(len(points))
-            for a, b in (pairs.T, pairs.T[::-1]):
-                np.add.at(total, a, points[b])
-                np.add.at(number, a, 1)
-            moved = points + 0.5 * (total / number[:, None] - points)
+            moved = points + 0.5 * (self.layout.neighbour_mean(points) - points)
             points = np.where(fixed[:, None], points, self.clay.project(moved, 2))
         points[flat[:, 0] == 0.0, 0] = 0.0
-        return points
+        return self._round_lids(points)
+
+    def _round_lids(self, points: Array) -> Array:
+        """The lids lie on a ball close around the eye; from there they run out into the face."""
+        centre = self.lid.centre * np.where(points[:, :1] < 0, (-1, 1, 1), (1, 1, 1))
+        away = points - centre
+        ball = centre + away * (LID * self.character.eyes.radius / np.linalg.norm(away, axis=1, keepdims=True))
+        share = smoothstep(1.5, EYE_RINGS[0], self._ratio)[:, None]
+        return points + share * (ball - points)
+
+    def _smoothed(self, values: Array) -> Array:
+        """(layout points,) values without the grain of the mesh."""
+        for _ in range(4):
+            values = (values + self.layout.neighbour_mean(values[:, None])[:, 0]) / 2
+        return values
 
     def _number(self) -> None:
         """Vertex numbers of the whole: bag (deepest first), lips, the end of the throat, the face, rims of the lids."""
@@ -120,9 +130,9 @@ class Skin:
     def _rim_triangles(self, start: int) -> Triangles:
         rims = []
         for side, eye in enumerate(self.layout.eyes):
-            own = start + side * len(RIM) * COLUMNS + np.arange(len(RIM) * COLUMNS).reshape(len(RIM), COLUMNS)
+            own = start + side * len(BAND) * COLUMNS + np.arange(len(BAND) * COLUMNS).reshape(len(BAND), COLUMNS)
             lattice = np.concatenate([self._face_number[eye][None], own])
-            triangles = lattice.ravel()[grid(len(RIM) + 1, COLUMNS, closed=True)]
+            triangles = lattice.ravel()[grid(len(BAND) + 1, COLUMNS, closed=True)]
             rims.append(triangles if side == 0 else triangles[:, ::-1])
         return np.concatenate(rims)
 
@@ -134,7 +144,7 @@ class Skin:
         around, size = np.arctan2(loop[:, 1], loop[:, 0]), np.linalg.norm(loop, axis=1)
         order = np.argsort(around)
         edge = np.interp(np.arctan2(flat[:, 1], flat[:, 0]), around[order], size[order], period=2 * np.pi)
-        ratio: Array = np.linalg.norm(flat, axis=1) / edge
+        ratio: Array = EYE_RINGS[0] * np.linalg.norm(flat, axis=1) / edge
         return ratio
 
     def piece(self) -> Piece:
@@ -180,9 +190,14 @@ class Skin:
 
     def _rims(self, *, closed: bool) -> list[Array]:
         angle = 2 * np.pi * np.arange(COLUMNS) / COLUMNS
-        right = np.concatenate([self.lid.edge(angle, radius, size) for radius, size in RIM])
+        rows = [self.lid.edge(angle, radius, size) for radius, size in BAND]
         if closed:
-            right = self.lid.close(right, np.ones(len(right)))
+            # what lies behind the edge moves as the edge does
+            sizes = [max(size, 1.0) for _, size in BAND]
+            fronts = [self.lid.edge(angle, size=size) for size in sizes]
+            shares = [self.lid.share(np.full(COLUMNS, size)) for size in sizes]
+            rows = [row + self.lid.close(front, share) - front for row, front, share in zip(rows, fronts, shares, strict=True)]
+        right = np.concatenate(rows)
         return [right, right * (-1, 1, 1)]
 
     def _blink(self, face: Array) -> Array:
@@ -234,9 +249,12 @@ class Skin:
         ratio = self._ratio[self._face_own]
         lid = smoothstep(1.45, 1.1, ratio)[:, None]
         tone += 0.7 * lid * (linear(palette.lid) - tone)
-        free = self.clay.occlusion(own, self.clay.gradient(own))
-        tone *= (0.55 + 0.45 * smoothstep(0.15, 0.75, free))[:, None] ** np.array([0.8, 1.1, 1.2])
+        free = self._smoothed(self.clay.occlusion(self.face, self.clay.gradient(self.face)))[self._face_own]
+        tone *= (0.74 + 0.26 * smoothstep(0.15, 0.75, free))[:, None] ** np.array([0.8, 1.1, 1.2])
         angle = 2 * np.pi * np.arange(COLUMNS) / COLUMNS
         upper = smoothstep(-0.15, 0.25, np.sin(angle)) * self.character.eyes.lash
-        rim = linear(palette.lid)[None] * 0.8 + upper[:, None] * (linear(palette.lash) - linear(palette.lid) * 0.8)
-        colours[last:, :3] = np.tile(rim, (2 * len(RIM), 1))
+        edge = linear(palette.lid) * 0.85 + upper[:, None] * (linear(palette.lash) - linear(palette.lid) * 0.85)
+        outer = tone[self._face_number[self.layout.eyes[0]] - first]
+        outer = outer + 0.5 * (linear(palette.lid) - outer)
+        band = np.concatenate([outer, *[edge] * (len(BAND) - EDGE)])
+        colours[last:, :3] = np.tile(band, (2, 1))

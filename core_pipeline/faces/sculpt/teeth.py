@@ -8,10 +8,10 @@ from core_pipeline.faces.sculpt.character import Character, MouthPose
 from core_pipeline.faces.sculpt.piece import Piece, grid, linear, turn
 from core_pipeline.faces.sculpt.sdf import Array, smoothstep
 
-PER_TOOTH = 5
+PER_TOOTH = 4
 # (across the row: −1 tongue side … 1 lip side; along the tooth: 0 at the gum, 1 at the edge)
-TOOTH = np.array([(0.95, -0.15), (1.06, 0.30), (1.0, 0.72), (0.72, 0.94), (0.30, 1.0), (-0.45, 0.9), (-0.9, 0.4), (-0.9, -0.15)])
-GUM = np.array([(0.2, -1.1), (0.9, -1.0), (1.25, -0.55), (1.22, 0.02), (0.95, 0.16), (-0.8, 0.16), (-1.4, -0.5), (-0.6, -1.1)])
+TOOTH = np.array([(0.95, -0.15), (1.06, 0.35), (0.98, 0.76), (0.68, 0.96), (0.10, 1.0), (-0.70, 0.75), (-0.9, -0.15)])
+GUM = np.array([(-0.2, -0.6), (0.8, -0.36), (1.15, 0.03), (0.9, 0.16), (-0.9, 0.16), (-1.4, -0.5)])
 
 
 def teeth(character: Character, centre: Array) -> list[Piece]:
@@ -65,7 +65,7 @@ class _Row:
         down = section[:, 1]
         if is_tooth:
             across = across - 0.30 * size.thickness * gap * (section[:, 0] > 0)
-            down = down - 0.10 * gap * smoothstep(0.5, 0.9, down) - 0.03 * self.from_middle[:, None] ** 4 * (down > 0.8)
+            down = down - 0.07 * gap * smoothstep(0.5, 0.9, down) - 0.03 * self.from_middle[:, None] ** 4 * (down > 0.8)
         else:
             across = across + 0 * gap
             down = down + 0.10 * gap * (section[:, 1] > 0)
@@ -75,7 +75,10 @@ class _Row:
         back = size.behind_lips + (0 if self.upper else size.bite)
         x = arch[:, :1] + out[:, :1] * across
         z = arch[:, 1:] + out[:, 1:] * across - back - size.thickness
-        points = np.stack([x + 0 * y, y + 0 * x, z + 0 * y], -1).reshape(-1, 3) + self.centre
+        # the row follows the lips' smile
+        mouth = self.character.mouth
+        y = y + 0.8 * mouth.smile * np.clip(x / mouth.half_width, -1, 1) ** 2
+        points = np.stack([x, y, z], -1).reshape(-1, 3) + self.centre
         triangles = grid(len(self.along), len(section), closed=False)
         ends = []
         for row, order in ((0, 1), (len(self.along) - 1, -1)):

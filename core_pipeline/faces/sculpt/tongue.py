@@ -8,7 +8,7 @@ from core_pipeline.faces.sculpt.character import Character, MouthPose, TongueBen
 from core_pipeline.faces.sculpt.piece import Piece, grid, linear, turn
 from core_pipeline.faces.sculpt.sdf import Array, smoothstep
 
-ROWS, SIDES = 26, 18
+ROWS, SIDES = 22, 16
 
 
 def tongue(character: Character, centre: Array) -> Piece:
@@ -29,21 +29,22 @@ def _posed(character: Character, pose: MouthPose, centre: Array) -> Array:
 
 
 def _bend(bend: TongueBend, centre: Array) -> Array:
-    u = np.linspace(0, 1, ROWS)[:, None]
+    # rows bunch at the round tip
+    t = np.sin(np.linspace(0, 1, ROWS) * np.pi / 2) ** 0.9
+    u = t[:, None]
     a, b, c, d = (np.array(point) for point in bend.line)
     line = (1 - u) ** 3 * a + 3 * (1 - u) ** 2 * u * b + 3 * (1 - u) * u**2 * c + u**3 * d
-    forward = np.gradient(line, axis=0)
+    forward = 3 * ((1 - u) ** 2 * (b - a) + 2 * (1 - u) * u * (c - b) + u**2 * (d - c))
     forward /= np.linalg.norm(forward, axis=1, keepdims=True)
     up = np.stack([forward[:, 1], -forward[:, 0]], -1)
-    t = u[:, 0]
-    tip = np.sqrt(np.clip(1 - (np.clip(t - 0.72, 0, None) / 0.28) ** 2, 0, 1))
-    tip[-1] = 0.02
-    wide = (0.17 + 0.035 * np.sin(np.pi * t)) * tip * (1 + (bend.tip_width - 1) * smoothstep(0.5, 1, t))
-    high = (0.085 - 0.048 * t) * (0.35 + 0.65 * tip) * np.where(t > 0.97, 0.4, 1)
+    wide_tip = np.sqrt(np.clip(1 - (np.clip(t - 0.66, 0, None) / 0.34) ** 2, 0, 1))
+    high_tip = np.sqrt(np.clip(1 - (np.clip(t - 0.86, 0, None) / 0.14) ** 2, 0, 1))
+    wide = (0.17 + 0.035 * np.sin(np.pi * t)) * wide_tip * (1 + (bend.tip_width - 1) * smoothstep(0.5, 1, t))
+    high = (0.085 - 0.048 * t) * high_tip
     angle = 2 * np.pi * np.arange(SIDES) / SIDES
     x = wide[:, None] * np.cos(angle)
-    groove = -0.016 * np.exp(-((np.cos(angle) / 0.28) ** 2)) * (np.sin(angle) > 0) * (tip * smoothstep(0, 0.3, t))[:, None]
-    offset = high[:, None] * np.sin(angle) + groove
+    groove = -0.014 * np.exp(-((np.cos(angle) / 0.28) ** 2)) * (np.sin(angle) > 0)
+    offset = high[:, None] * np.sin(angle) + groove * (wide_tip * high_tip * smoothstep(0, 0.3, t))[:, None]
     y = line[:, :1] + offset * up[:, :1]
     z = line[:, 1:] + offset * up[:, 1:]
     return np.stack([x, y, z], -1).reshape(-1, 3) + centre

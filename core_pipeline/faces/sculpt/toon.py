@@ -3,7 +3,20 @@
 from __future__ import annotations
 
 from core_pipeline.faces.face import Camera
-from core_pipeline.faces.sculpt.character import Character, Hair, Lock, MouthPose, TongueBend
+from core_pipeline.faces.sculpt.character import (
+    Body,
+    Brows,
+    Character,
+    Dentition,
+    Ears,
+    Eyes,
+    Hair,
+    Lock,
+    Mouth,
+    MouthPose,
+    Palette,
+    TongueBend,
+)
 from core_pipeline.faces.sculpt.sdf import Blob
 
 CLAY = (
@@ -11,7 +24,7 @@ CLAY = (
     Blob((0, -0.34, 0.14), (0.66, 0.56, 0.66), 0.30),  # jaw
     Blob((0.36, -0.22, 0.42), (0.38, 0.33, 0.38), 0.22, mirrored=True),  # cheeks
     Blob((0, -0.42, 0.52), (0.40, 0.30, 0.36), 0.22),  # the round under nose and lips
-    Blob((0, -0.80, 0.52), (0.22, 0.14, 0.19), 0.24),  # chin
+    Blob((0, -0.79, 0.57), (0.22, 0.14, 0.19), 0.24),  # chin
     Blob((0, 0.10, 0.84), (0.085, 0.24, 0.11), 0.16),  # bridge of the nose
     Blob((0, -0.09, 0.965), (0.115, 0.098, 0.12), 0.09),  # tip of the nose
     Blob((0.085, -0.115, 0.93), (0.058, 0.05, 0.065), 0.05, mirrored=True),  # its wings
@@ -22,37 +35,42 @@ REST = TongueBend(((-0.30, -0.68), (-0.02, -0.58), (-0.07, -0.36), (-0.085, -0.2
 
 POSES = {
     "open": MouthPose(
-        jaw=25, drop_lower=0.02, raise_upper=0.025, width=-0.10, corners=-0.03,
+        jaw=25, drop_lower=0.045, raise_upper=0.025, width=-0.10, corners=-0.03,
         tongue=TongueBend(((-0.30, -0.68), (-0.02, -0.56), (-0.05, -0.36), (-0.065, -0.25))),
     ),
     "W": MouthPose(
-        jaw=3, rounded=1.0, hole=(0.058, 0.060), ring=0.085, forward=0.15,
-        upper_teeth=(0.10, -0.07), lower_teeth=(-0.05, -0.07),
+        rounded=1.0, hole=(0.058, 0.058), ring=0.085, forward=0.13,
+        upper_teeth=(0.11, -0.07), lower_teeth=(-0.08, -0.07),
         tongue=TongueBend(((-0.34, -0.70), (-0.16, -0.66), (-0.20, -0.52), (-0.20, -0.42))),
     ),
     "ShCh": MouthPose(
         width=-0.30, forward=0.10, raise_upper=0.065, drop_lower=0.075, roll_upper=16, roll_lower=20, thick=0.10,
-        corners=-0.03, corner_forward=0.04,
+        corners=-0.03, corner_forward=0.04, upper_teeth=(0.0, 0.05), lower_teeth=(0.012, 0.05),
     ),
-    "PBM": MouthPose(width=0.03, roll_upper=-24, roll_lower=-24, thick=-0.36, forward=-0.008, slide=0.03),
+    "PBM": MouthPose(width=0.03, roll_upper=-24, roll_lower=-24, thick=-0.36, forward=-0.008, slide=0.03, lower_teeth=(0.0, -0.03)),
     "FV": MouthPose(
-        jaw=3.5, width=0.03, raise_upper=0.06, tuck=(0.05, 0.13), roll_lower=-34, thick=-0.08, corners=-0.01,
+        jaw=3.5, width=0.03, raise_upper=0.06, tuck=(0.05, 0.105), roll_lower=-34, thick=-0.08, corners=-0.01,
         lower_teeth=(-0.04, -0.13),
     ),
     "wide": MouthPose(
         width=0.21, raise_upper=0.05, drop_lower=0.035, corners=0.045, forward=-0.02, thick=-0.10, cheeks=0.05,
     ),
     "tBack": MouthPose(tongue=TongueBend(((-0.30, -0.70), (0.20, -0.70), (0.02, -0.42), (-0.10, -0.36)))),
-    "tRoof": MouthPose(tongue=TongueBend(((-0.30, -0.66), (-0.02, -0.60), (-0.02, -0.36), (0.13, -0.24)), 0.9)),
-    "tTeeth": MouthPose(tongue=TongueBend(((-0.28, -0.66), (0.06, -0.50), (0.03, -0.24), (0.02, -0.045)), 0.9)),
+    "tRoof": MouthPose(tongue=TongueBend(((-0.30, -0.66), (-0.02, -0.60), (-0.06, -0.34), (0.15, -0.20)), 0.75)),
+    "tTeeth": MouthPose(tongue=TongueBend(((-0.28, -0.66), (0.06, -0.50), (0.03, -0.24), (0.012, -0.012)), 0.9)),
 }  # fmt: skip
 
 HAIR = Hair(
-    hairline=((0, 62), (25, 60), (48, 66), (62, 84), (72, 104), (80, 106), (90, 84), (104, 84), (116, 104), (140, 112), (180, 112)),
+    hairline=((0, 77), (25, 76), (48, 80), (62, 92), (72, 108), (80, 110), (90, 88), (104, 86), (116, 108), (140, 118), (180, 118)),
+    front=0.13,
+    top=0.14,
+    quiff=0.10,
     locks=(
-        Lock(((-30, 20, 0.10), (-12, 40, 0.30), (8, 52, 0.36), (24, 60, 0.26)), 0.13, 0.06),
-        Lock(((-50, 24, 0.10), (-38, 44, 0.24), (-20, 58, 0.26), (-4, 68, 0.15)), 0.12, 0.055),
-        Lock(((0, 18, 0.12), (14, 38, 0.28), (30, 50, 0.28), (46, 62, 0.17)), 0.12, 0.055),
+        Lock(((-38, 40, 0.06), (-45, 56, 0.13), (-56, 74, 0.12), (-66, 92, 0.03)), 0.14, 0.07),
+        Lock(((-34, 36, 0.08), (-30, 56, 0.17), (-14, 76, 0.16), (10, 88, 0.06)), 0.16, 0.075),
+        Lock(((-30, 30, 0.10), (-16, 48, 0.20), (8, 68, 0.19), (34, 84, 0.06)), 0.17, 0.08),
+        Lock(((-26, 26, 0.10), (6, 42, 0.19), (34, 60, 0.17), (58, 82, 0.06)), 0.17, 0.08),
+        Lock(((-10, 22, 0.09), (28, 36, 0.16), (56, 54, 0.14), (74, 84, 0.04)), 0.15, 0.07),
     ),
 )
 
@@ -63,5 +81,14 @@ TOON = Character(
     poses=POSES,
     hair=HAIR,
     rest_tongue=REST,
+    mouth=Mouth(smile=0.085, upper=0.052, lower=0.072, upper_depth=0.036, lower_depth=0.042),
+    teeth=Dentition(half_width=0.325, behind_lips=0.085),
+    eyes=Eyes(radius=0.285, upper=0.61, lower=0.56, iris=33, pupil=17),
+    body=Body(middle=-0.20),
+    ears=Ears(centre=(0.95, 0.02, -0.06)),
+    brows=Brows(
+        line=((0.12, 0.40, 0.030), (0.22, 0.44, 0.044), (0.34, 0.45, 0.042), (0.46, 0.415, 0.032), (0.55, 0.36, 0.010)),
+    ),
+    palette=Palette(lip=(0.84, 0.47, 0.42)),
     camera=Camera(target=(0.0, -0.02, 0.0), distance=7.2, yaw=0.0, pitch=0.0, fov=24.0),
 )

@@ -10,8 +10,8 @@ from core_pipeline.faces.sculpt.piece import Piece, grid, linear, mirror, paint,
 from core_pipeline.faces.sculpt.sdf import Array, Solid, smoothstep
 
 BROW_ROWS = 14
-EAR_AROUND = 26
-NECK_AROUND = 40
+EAR_AROUND = 20
+NECK_AROUND = 34
 
 
 def brows(character: Character, clay: Solid) -> list[Piece]:
@@ -37,10 +37,10 @@ def _brow(character: Character, clay: Solid, lift: float) -> tuple[Array, Array]
     ahead /= np.linalg.norm(ahead, axis=1, keepdims=True)
     across = np.cross(out, ahead)
     across /= np.linalg.norm(across, axis=1, keepdims=True)
-    ends = np.sqrt(np.clip(1 - np.clip((0.10 - u) / 0.10, 0, 1) ** 2, 0.02, 1))
-    ends[-1] = 0.1
+    ends = np.sqrt(np.clip(1 - np.clip((0.10 - u) / 0.10, 0, 1) ** 2, 0, 1))
+    ends[[0, -1]] = 0.01
     half = half * ends
-    return tube(path + out * 0.012, across, np.cross(ahead, across), half, 0.55 * half + 0.004, 8)
+    return tube(path + out * 0.004, across, np.cross(ahead, across), half, 0.5 * half + 0.004, 8)
 
 
 def ears(character: Character) -> list[Piece]:
@@ -49,15 +49,15 @@ def ears(character: Character) -> list[Piece]:
     wide, high = shape.size
     turn = 2 * np.pi * np.arange(EAR_AROUND) / EAR_AROUND
     # (distance from the middle of the bowl, how far it stands off the head), from inside to the root behind
-    section = [(0.0, 0.035), (0.22, 0.030), (0.42, 0.045), (0.58, 0.085), (0.74, 0.090), (0.86, 0.112), (0.97, 0.104)]
-    section += [(1.0, 0.075), (0.94, 0.045), (0.80, 0.0), (0.62, -0.08)]
+    section = [(0.0, -0.005), (0.25, -0.008), (0.45, 0.018), (0.60, 0.058), (0.74, 0.046), (0.87, 0.070), (0.96, 0.066)]
+    section += [(1.0, 0.044), (0.95, 0.020), (0.82, -0.02), (0.66, -0.18)]
     rows = []
     for size, off in section:
         lobe = 1 - 0.28 * smoothstep(0.0, -1.0, np.sin(turn))
         u = wide * size * np.cos(turn) * lobe
         v = high * size * np.sin(turn) + 0.02 * size
-        ridge = 0.02 * np.exp(-(((size - 0.45) / 0.12) ** 2)) * np.cos(turn)
-        rows.append(np.stack([off + ridge - 0.02 * (np.sin(turn) < -0.7) * (size > 0.4), v, u], -1))
+        ridge = 0.022 * np.exp(-(((size - 0.60) / 0.10) ** 2)) * (np.cos(turn) - 0.4 * np.sin(turn))
+        rows.append(np.stack([off + ridge, v, u], -1))
     local = np.concatenate(rows)
     a = np.radians(shape.stand_off)
     # u runs towards the back of the head, tilted a little like every ear
@@ -72,7 +72,7 @@ def ears(character: Character) -> list[Piece]:
     warm = 0.35 * np.repeat([1, 1, 0.8, 0.5, 0.4, 0.4, 0.3, 0.2, 0.1, 0, 0], EAR_AROUND)[:, None]
     colours[:, :3] += warm * (linear(palette.blush) - colours[:, :3])
     colours[:, :3] *= depth[:, None] ** np.array([0.8, 1.1, 1.2])
-    triangles = grid(len(section), EAR_AROUND, closed=True)
+    triangles = grid(len(section), EAR_AROUND, closed=True)[:, ::-1]
     right = Piece("ear_right", points, triangles, colours)
     return [right, mirror(right, "ear_left")]
 
@@ -81,16 +81,17 @@ def body(character: Character) -> list[Piece]:
     """Neck and a shirt with a rolled collar, cut off below the frame."""
     shape, palette = character.body, character.palette
     turn = 2 * np.pi * np.arange(NECK_AROUND) / NECK_AROUND
-    heights = np.array([shape.collar - 0.12, shape.collar, -1.08, -0.96, -0.85, -0.72, -0.50])
-    radii = shape.neck * np.array([1.22, 1.12, 1.04, 1.0, 1.0, 1.03, 1.06])
+    heights = np.array([shape.collar - 0.12, shape.collar, -1.08, -0.96, -0.85, -0.72, -0.58])
+    radii = shape.neck * np.array([1.22, 1.12, 1.04, 1.0, 0.98, 0.78, 0.40])
     neck = _lathe(turn, heights, radii, 1.0, shape.middle)
+    # it leans back under the head, out of the way of the mouth
+    neck[:, 2] -= 0.08 * smoothstep(-0.95, -0.5, neck[:, 1])
     colours = paint(len(neck), palette.skin, 0.35)
     # the head's shadow
     free = 0.42 + 0.58 * smoothstep(-0.72, -1.25, np.repeat(heights, NECK_AROUND))
     colours[:, :3] *= free[:, None] ** np.array([0.8, 1.1, 1.2])
-    trunk = np.array([(0.60, 1.02), (0.20, 1.16), (0.08, 1.28), (0.03, 1.40), (-0.03, 1.44), (-0.08, 1.40), (-0.10, 1.36)])
-    trunk = np.concatenate([trunk[:0], [(0.06, 1.08), (0.10, 1.16), (0.09, 1.27), (0.03, 1.34), (-0.04, 1.34), (-0.07, 1.30)]])
-    slope = np.array([(-0.08, 1.40), (-0.13, 1.75), (-0.22, 2.20), (-0.36, 2.60), (-0.60, 2.85), (-0.95, 2.95)])
+    trunk = np.array([(0.06, 1.06), (0.10, 1.14), (0.09, 1.25), (0.03, 1.33), (-0.04, 1.34), (-0.09, 1.30)])
+    slope = np.array([(0.02, 1.22), (-0.06, 1.36), (-0.13, 1.75), (-0.22, 2.20), (-0.36, 2.60), (-0.60, 2.85), (-0.95, 2.95)])
     collar = _lathe(turn, shape.collar + trunk[::-1, 0], shape.neck * trunk[::-1, 1], 1.0, shape.middle)
     shirt = _lathe(turn, shape.collar + slope[::-1, 0], shape.neck * slope[::-1, 1], 0.72, shape.middle)
     pieces = [Piece("neck", neck, grid(len(heights), NECK_AROUND, closed=True), colours)]

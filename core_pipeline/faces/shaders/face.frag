@@ -8,16 +8,18 @@ in vec3 v_in_light;
 
 uniform sampler2DShadow shadow;
 uniform vec3 key_from;   // unit, towards the key light
+uniform float cut;       // not 0: the head is cut open
 
 out vec4 pixel;
 
-const vec3 KEY = vec3(1.78, 1.56, 1.34);
-const vec3 SKY = vec3(0.34, 0.40, 0.50);
-const vec3 BOUNCE = vec3(0.25, 0.17, 0.13);
+const vec3 KEY = vec3(1.62, 1.42, 1.24);
+const vec3 SKY = vec3(0.235, 0.275, 0.335);
+const vec3 BOUNCE = vec3(0.205, 0.14, 0.11);
 const vec3 RIM_FROM = vec3(0.7276, 0.4366, -0.5292);
-const vec3 RIM = vec3(0.62, 0.80, 1.10);
-const float PENUMBRA = 0.012;   // of the shadow map's width
-const float BIAS = 0.012;       // of its depth
+const vec3 RIM = vec3(2.3, 3.3, 4.9);
+const vec3 INSIDE = vec3(0.16, 0.10, 0.105);   // of a head cut open; sRGB
+const float PENUMBRA = 0.007;   // of the shadow map's width
+const float BIAS = 0.006;       // of its depth
 
 // How much of the key light arrives, 0…1: four taps, each over four texels.
 float arriving(vec3 p) {
@@ -27,6 +29,10 @@ float arriving(vec3 p) {
 }
 
 void main() {
+    if (cut != 0.0 && !gl_FrontFacing) {
+        pixel = vec4(INSIDE, 1.0);
+        return;
+    }
     vec3 n = normalize(v_normal);
     if (!gl_FrontFacing) n = -n;
     vec3 to_eye = normalize(-v_place);
@@ -37,9 +43,11 @@ void main() {
     // the surface itself is redder than blue. Teeth, eyes and hair keep a neutral edge.
     float flesh = clamp((base.r - base.b) / (base.r + 0.02), 0.0, 1.0);
     vec3 wrap = vec3(0.26) + flesh * vec3(0.30, 0.06, 0.0);
-    float free = arriving(v_in_light);
-    vec3 lit = clamp((dot(n, key_from) + wrap) / (1.0 + wrap), 0.0, 1.0);
-    vec3 through = mix(vec3(0.10) + flesh * vec3(0.16, 0.03, 0.0), vec3(1.0), free);
+    float facing = dot(n, key_from);
+    vec3 lit = clamp((facing + wrap) / (1.0 + wrap), 0.0, 1.0);
+    // A shadow is cast on what faces the light; what turns away darkens by itself, and more gently.
+    float free = 1.0 - (1.0 - arriving(v_in_light)) * smoothstep(0.0, 0.5, facing);
+    vec3 through = mix(vec3(0.16) + flesh * vec3(0.16, 0.02, -0.02), vec3(1.0), free);
     vec3 light = KEY * lit * lit * through + mix(BOUNCE, SKY, n.y * 0.5 + 0.5);
 
     float toward = clamp(dot(n, to_eye), 0.0, 1.0);
@@ -53,7 +61,11 @@ void main() {
     float spot = pow(max(dot(n, normalize(key_from + to_eye)), 0.0), hardness);
     float shine = gloss * (0.04 + 0.9 * gloss * gloss) * spot * free + 0.06 * gloss * edge;
 
-    vec3 colour = base * light + rim * (base * 0.7 + 0.08) + KEY * shine;
-    colour = colour * (1.0 + colour * 0.09) / (1.0 + colour * 0.42);   // soft shoulder: no burnt spots
-    pixel = vec4(pow(colour * 1.28, vec3(1.0 / 2.2)), 1.0);
+    vec3 colour = base * light + rim * (base * 0.75 + 0.03 * gloss) + KEY * shine;
+    // A soft shoulder on the brightest channel keeps the hue of bright skin; a little of it on each
+    // channel lets highlights go to white.
+    float peak = max(colour.r, max(colour.g, colour.b));
+    vec3 each = colour * 1.45 / (1.0 + 0.5 * colour);
+    colour = mix(colour * (1.45 / (1.0 + 0.5 * peak)), each, 0.35);
+    pixel = vec4(pow(colour, vec3(1.0 / 2.2)), 1.0);
 }

@@ -3,7 +3,9 @@
 layout(location = 0) in vec3 position;
 
 uniform mat4 to_light;
+uniform float cut;   // the side of the middle, +1 or -1, that is hidden; 0 to hide nothing
 
 void main() {
+    gl_ClipDistance[0] = cut == 0.0 ? 1.0 : -cut * position.x;
     gl_Position = to_light * vec4(position, 1.0);
 }

@@ -1,6 +1,7 @@
 """The camera turns, nears and shifts as the hand does, and never gets lost."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -49,6 +50,15 @@ def test_no_move_leads_astray(moves):
 @given(MOVES)
 def test_reset_is_the_faces_own_view(moves):
     assert after(moves).reset() == VIEW
+
+
+@given(MOVES)
+def test_no_move_nor_reset_closes_the_cut_away(moves):
+    view = VIEW
+    for name, arguments in moves:
+        view = getattr(replace(view, cutaway=True), name)(*arguments)
+        assert view.cutaway
+        assert view.reset() == replace(VIEW, cutaway=True)
 
 
 @given(MOVES)

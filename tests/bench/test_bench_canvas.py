@@ -1,0 +1,66 @@
+"""From mouse event to painted frame, nine poses of twelve keys on 900×500 pixels.
+
+The budget is 16 ms in the median (editor page); the aim is 4. Run with --benchmark-only.
+"""
+
+from itertools import cycle
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QEvent, QPointF, Qt
+from PySide6.QtGui import QMouseEvent
+from PySide6.QtWidgets import QApplication
+
+from core_pipeline.curves import Curve
+from core_pipeline.poses import FACEFX
+from widgets.curve_canvas import CurveCanvas
+
+
+@pytest.fixture
+def canvas(qtbot):
+    widget = CurveCanvas()
+    qtbot.addWidget(widget)
+    widget.resize(900, 500)
+    dice = np.random.default_rng(2013)
+    widget.set_poses(FACEFX)
+    widget.set_bigram("f", "ah")
+    widget.set_curves({pose: Curve(np.linspace(0, 1, 12), dice.random(12)) for pose in FACEFX})
+    widget.set_active("FV")
+    widget.show()
+    qtbot.waitExposed(widget)
+    return widget
+
+
+def send(canvas, kind, at, button, buttons):
+    viewport = canvas.viewport()
+    globally = QPointF(viewport.mapToGlobal(at))
+    QApplication.sendEvent(viewport, QMouseEvent(kind, at, globally, button, buttons, Qt.KeyboardModifier.NoModifier))
+
+
+def test_one_step_of_a_drag(canvas, benchmark):
+    left, none = Qt.MouseButton.LeftButton, Qt.MouseButton.NoButton
+    curve = canvas.curves["FV"]
+    start = canvas.point_of(float(curve.t[5]), float(curve.v[5]))
+    send(canvas, QEvent.Type.MouseButtonPress, start, left, left)
+    places = cycle([start + QPointF(12 * np.sin(i / 5), i % 40 - 20) for i in range(4, 84)])
+    previews = []
+    canvas.preview_changed.connect(previews.append)
+
+    def step():
+        send(canvas, QEvent.Type.MouseMove, next(places), none, left)
+        QApplication.processEvents()
+
+    benchmark(step)
+    assert len(previews) > benchmark.stats.stats.rounds / 2
+    assert benchmark.stats.stats.median < 0.016
+
+
+def test_one_step_of_the_playhead(canvas, benchmark):
+    times = cycle(np.linspace(0.01, 0.99, 97).tolist())
+
+    def step():
+        canvas.set_playhead(next(times))
+        QApplication.processEvents()
+
+    benchmark(step)
+    assert benchmark.stats.stats.median < 0.004

@@ -1,0 +1,11 @@
+"""Hypothesis: few examples, so that the whole suite stays quick; the same ones every time on a build machine."""
+
+import os
+
+from hypothesis import HealthCheck
+from hypothesis import settings as hypothesis_settings
+
+_quick = {"deadline": None, "max_examples": 40, "suppress_health_check": [HealthCheck.too_slow]}
+hypothesis_settings.register_profile("here", **_quick)
+hypothesis_settings.register_profile("ci", derandomize=True, **_quick)
+hypothesis_settings.load_profile("ci" if os.environ.get("CI") == "true" else "here")
