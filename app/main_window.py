@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QCloseEvent, QKeyEvent, QShowEvent
+from PySide6.QtGui import QCloseEvent, QKeyEvent, QPalette, QShowEvent
 from PySide6.QtWidgets import (
     QDockWidget,
     QHBoxLayout,
@@ -179,12 +179,15 @@ class MainWindow(QMainWindow):
 
     def _status(self) -> None:
         self.selection_label = QLabel()
+        self.hint_label = QLabel()
         self.missing_label = QLabel()
         self.timing_label = QLabel()
         self.saved_label = QLabel()
-        self.selection_label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.hint_label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.hint_label.setForegroundRole(QPalette.ColorRole.PlaceholderText)
         bar = self.statusBar()
         bar.setSizeGripEnabled(False)
-        bar.addWidget(self.selection_label, 1)
+        bar.addWidget(self.selection_label)
+        bar.addWidget(self.hint_label, 1)
         for label in (self.missing_label, self.timing_label, self.saved_label):
             bar.addPermanentWidget(label)

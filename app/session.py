@@ -53,11 +53,16 @@ class Session(QObject):
         self._turn.start()
 
     def set_preview(self, pair: Pair, curves: Mapping[str, Curve | None] | None) -> None:
-        """Show a gesture while it lasts, without touching the document; None ends it."""
+        """Show a gesture while it lasts, without touching the document; None ends it.
+
+        curves  those that changed since the last call; earlier ones of the same gesture stay
+        """
         if curves is None:
             self._preview = None
         else:
             bigram = self._curve_set.bigrams.get(pair, Bigram())
+            if self._preview is not None and self._preview[0] == pair:
+                bigram = self._preview[1]
             for pose, curve in curves.items():
                 bigram = bigram.with_curve(pose, curve)
             self._preview = (pair, bigram)

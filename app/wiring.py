@@ -63,6 +63,7 @@ class Wiring(QObject):
         self._connect_views()
         self._connect_menu()
         self._set_replaced()
+        self._show_file()
         self._window.bigram_transport.set_length(BIGRAM_SECONDS)
         self._window.may_close = self._may_close
 
@@ -84,7 +85,7 @@ class Wiring(QObject):
         w.canvas.cancelled.connect(self._gesture_cancelled)
         w.canvas.active_changed.connect(self._pose_activated)
         w.canvas.selection_changed.connect(self._say)
-        w.canvas.hint_changed.connect(self._say)
+        w.canvas.hint_changed.connect(w.hint_label.setText)
         w.canvas.play_wanted.connect(self._preview.toggle_bigram)
         w.pose_list.pose_picked.connect(self._pose_activated)
         w.pose_list.visibility_changed.connect(self._visibility_changed)
@@ -404,6 +405,7 @@ class Wiring(QObject):
         self._session.set_utterance(utterance)
         self._preview.player.set_utterance(utterance.schedule.end, utterance.audio)
         self._show_sound()
+        w.transport.set_time(self._preview.player.time, self._preview.player.duration)
         if play:
             self._preview.show_sentence()
             self._preview.player.seek(0.0)

@@ -37,6 +37,7 @@ Moment = Literal["early", "mid", "late", "meeting"]
 #: Pose → strength, or moment → strength for a phone that moves.
 Row = dict[str, Weight | dict[Moment, Weight]]
 Key = tuple[float, float]
+Stroke = tuple[tuple[Time, Weight], ...]
 #: Moment → strength of one pose.
 Strengths = Mapping[Moment, float]
 Targets = Mapping[str, Strengths]
@@ -80,11 +81,22 @@ class Reach(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
 
 class Closures(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
-    """The plateau of poses whose lips touch: (time, fraction of the strength) as first phone; somewhere 1."""
+    """Poses whose lips touch have a plateau: (time, fraction of the strength) as first phone, somewhere 1.
+
+    The stroke depends on the other phone: silence, one of the `long` phones, or any other.
+    """
 
     poses: tuple[str, ...]
-    first: tuple[tuple[Time, Weight], ...]
-    first_before_silence: tuple[tuple[Time, Weight], ...]
+    long: tuple[str, ...]
+    first: Stroke
+    first_before_long: Stroke
+    first_before_silence: Stroke
+
+    def beside(self, other: str) -> Stroke:
+        """The stroke before `other`; after it, the mirror image."""
+        if other == SILENCE:
+            return self.first_before_silence
+        return self.first_before_long if other in self.long else self.first
 
 
 class Recipe(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
@@ -118,11 +130,11 @@ def read_recipe(path: Path) -> Recipe:
     for phone in recipe.phonemes:
         if phone not in recipe.phones:
             raise UserError(f"{path} has no row for {phone}: add [phones.{phone}].")
-    for section, rows in (("phones", recipe.phones), ("beside", recipe.beside), ("borrow", recipe.borrow)):
+    for section, rows in (("phones", recipe.phones), ("beside", recipe.beside), ("borrow", recipe.borrow), ("closures", recipe.closures.long)):
         for phone in rows:
             if phone not in recipe.phonemes:
                 raise UserError(f"{path}: [{section}] has {phone!r}, which is not among the phonemes: correct it.")
-    for stroke in (recipe.closures.first, recipe.closures.first_before_silence):
+    for stroke in (recipe.closures.beside(phone) for phone in (*recipe.phonemes, SILENCE)):
         if not any(fraction == 1 for _, fraction in stroke):
             raise UserError(f"{path}: a stroke in [closures] never reaches 1: give it a key at 1.")
     named: list[tuple[str, Iterable[str]]] = [("closures", recipe.closures.poses)]
@@ -139,8 +151,8 @@ def bigram_of(recipe: Recipe, pair: Pair, status: str = "draft") -> Bigram:
     curves = {}
     for pose in recipe.poses:
         if pose in first or pose in second:
-            before = _first_part(recipe, pose, first.get(pose, {}), alone=pair[1] == SILENCE)
-            after = _second_part(recipe, pose, second.get(pose, {}), alone=pair[0] == SILENCE)
+            before = _first_part(recipe, pose, first.get(pose, {}), pair[1])
+            after = _second_part(recipe, pose, second.get(pose, {}), pair[0])
             curves[pose] = _joined(before, after)
     return Bigram(curves, status=status, source=SOURCE)
 
@@ -198,26 +210,28 @@ def _give_way(row: Targets, limits: Mapping[str, float], far: Moment) -> Targets
     return given
 
 
-def _first_part(recipe: Recipe, pose: str, strengths: Strengths, *, alone: bool) -> Part:
-    """The first phone's keys; `alone` when the other is silence."""
+def _first_part(recipe: Recipe, pose: str, strengths: Strengths, second: str) -> Part:
+    """The first phone's keys, before the phone `second`."""
     if not strengths:
         return Part([], [])
     if pose in recipe.closures.poses:
-        stroke = recipe.closures.first_before_silence if alone else recipe.closures.first
+        stroke = recipe.closures.beside(second)
         keys = [(t, fraction * max(strengths.values())) for t, fraction in stroke]
         fall = 1 + max(i for i, (_, fraction) in enumerate(stroke) if fraction == 1)
         return Part(keys[:fall], keys[fall:])
+    alone = second == SILENCE
     peaks = (recipe.times.first_before_silence if alone else recipe.times.first).peaks(strengths)
     return Part(peaks, [(peaks[-1][0] + (recipe.reach.silence if alone else recipe.reach.usual), 0.0)])
 
 
-def _second_part(recipe: Recipe, pose: str, strengths: Strengths, *, alone: bool) -> Part:
-    """The second phone's keys; `alone` when the other is silence."""
+def _second_part(recipe: Recipe, pose: str, strengths: Strengths, first: str) -> Part:
+    """The second phone's keys, after the phone `first`."""
     if not strengths:
         return Part([], [])
     if pose in recipe.closures.poses:
-        mirror = _first_part(recipe, pose, strengths, alone=alone)
+        mirror = _first_part(recipe, pose, strengths, first)
         return Part([(1.0 - t, v) for t, v in mirror.held[::-1]], [(1.0 - t, v) for t, v in mirror.slope[::-1]])
+    alone = first == SILENCE
     peaks = (recipe.times.second_after_silence if alone else recipe.times.second).peaks(strengths)
     return Part(peaks, [(peaks[0][0] - (recipe.reach.silence if alone else recipe.reach.usual), 0.0)])
 

@@ -46,7 +46,8 @@ def pchip_slopes(t: Array, v: Array, first: ArrayLike = 0, last: ArrayLike = -1)
     a, b = secant[:-1], secant[1:]
     w1, w2 = 2 * h[1:] + h[:-1], h[1:] + 2 * h[:-1]
     slopes = np.zeros(t.size)
-    i = (a * b > 0).nonzero()[0]  # elsewhere the curve turns: slope 0
+    # Elsewhere the curve turns, or is flat to the last digit: slope 0.
+    i = ((a * b > 0) & (np.minimum(np.abs(a), np.abs(b)) > 1e-12)).nonzero()[0]
     slopes[i + 1] = (w1[i] + w2[i]) / (w1[i] / a[i] + w2[i] / b[i])
     first, last = np.atleast_1d(first), np.atleast_1d(last) % t.size
     second = np.minimum(first + 1, last - 1)  # equals `first` where there are only two knots

@@ -40,7 +40,7 @@ class BigramPicker(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._waiting = False  # for an answer to `search_wanted`
+        self._asked = False  # the present text went out as `search_wanted`
         self._open_first = False
         self.search = QLineEdit()
         self.search.setClearButtonEnabled(True)
@@ -143,9 +143,8 @@ class BigramPicker(QWidget):
 
     def set_matches(self, pairs: Sequence[Pair]) -> None:
         """The answer to `search_wanted`: the bigrams of that word, in its order; none when it is unknown."""
-        if not self._waiting:
+        if not self._asked:
             return  # the search has moved on
-        self._waiting = False
         self._show_matches(list(dict.fromkeys(pairs)))
         if self._open_first:
             self._step()
@@ -168,7 +167,7 @@ class BigramPicker(QWidget):
         return super().eventFilter(watched, event)
 
     def _search(self, text: str, *, open_pair: bool = True) -> None:
-        self._waiting = self._open_first = False
+        self._asked = self._open_first = False
         phonemes = self.grid.pairs.phonemes
         phones = phones_in(text, phonemes)
         if not text.strip():
@@ -189,7 +188,7 @@ class BigramPicker(QWidget):
         else:
             self._show_matches([])
             self.legend.set_message(self.tr("Looking for “%1”…").replace("%1", text.strip()))
-            self._waiting = True
+            self._asked = True
             self.search_wanted.emit(text.strip())
 
     def _may_grow(self, text: str) -> bool:
@@ -218,5 +217,5 @@ class BigramPicker(QWidget):
             self._next += 1
             self.grid.set_current(pair)
             self.picked.emit(pair)
-        elif self._waiting:
+        elif self._asked:
             self._open_first = True  # Enter came before the answer

@@ -29,8 +29,7 @@ class StageChip(QToolButton):
         label = theme.STAGE_STYLES[name].label
         self.setText(label)
         shortcut = QKeySequence(Qt.Modifier.ALT | Qt.Key(Qt.Key.Key_0 + number))
-        # setText and setIcon drop nothing, but a text with & would set another shortcut.
-        self.setShortcut(shortcut)
+        self.setShortcut(shortcut)  # after the text, which would replace it
         tip = self.tr("%1 (%2) · right-click or double-click: only this one")
         keys = shortcut.toString(QKeySequence.SequenceFormat.NativeText)
         self.setToolTip(tip.replace("%1", label).replace("%2", keys))
@@ -64,6 +63,7 @@ class StageChip(QToolButton):
             super().mousePressEvent(event)
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
-        """Qt's hook: the first click has toggled already; only this stage remains."""
+        """Qt's hook: takes back what the first click did, then asks for this stage alone."""
         if event.button() == Qt.MouseButton.LeftButton:
+            self.toggle()
             self.soloed.emit(self.name)

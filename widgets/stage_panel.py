@@ -134,12 +134,14 @@ class StagePanel(QWidget):
 
     def solo(self, name: str) -> None:
         """Only this stage; once more brings back what was shown before."""
-        if self.shown() == {name} and self._before_solo:
-            self._check(self._before_solo)
-            self._before_solo = None
-        else:
-            self._before_solo = self.shown() - {name} | {name}
-            self._check(frozenset({name}))
+        shown, alone = self.shown(), frozenset({name})
+        if shown == alone:
+            before, self._before_solo = self._before_solo, None
+            self._check(before if before and before != alone else frozenset(chip.name for chip in self.chips))
+            return
+        if self._before_solo is None or len(shown) != 1:  # else: from one alone to the next
+            self._before_solo = shown
+        self._check(alone)
 
     def _check(self, names: frozenset[str]) -> None:
         for chip in self.chips:
@@ -148,7 +150,6 @@ class StagePanel(QWidget):
         self.overlay.set_shown(names)
 
     def _show_checked(self) -> None:
-        self._before_solo = None
         self.overlay.set_shown(self.shown())
 
     # The reading

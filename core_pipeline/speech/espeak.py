@@ -100,6 +100,8 @@ class Espeak:
         try:
             answer, sound = self._running().ask(request, self._timeout)
         except EOFError:  # it died, now or since the last sentence: once more with a new one
+            if self._process:
+                self._process.stop()  # it may be dying still
             try:
                 answer, sound = self._running().ask(request, self._timeout)
             except EOFError as error:

@@ -130,10 +130,7 @@ def test_the_sum_law(schedule, curve_set, settings):
                 t = np.unique(np.concatenate((a.t, b.t, (a.t[1:] + a.t[:-1]) / 2, (b.t[1:] + b.t[:-1]) / 2)))
                 va, vb = a.at(t), b.at(t)
                 both = (va > 1e-9) & (vb > 1e-9)
-                assert (va + vb)[both].max(initial=0) <= limit + 1e-6
-                # where times are round, no two knots are near each other and the law holds to 1e-9
-                knot = np.isin(t, b.t) & np.isin(t, a.t)
-                assert (va + vb)[both & knot].max(initial=0) <= limit + 2e-9
+                assert (va + vb)[both].max(initial=0) <= limit + 3e-9
 
 
 @given(schedules(nasty=True), curve_sets(nasty=True), settings())

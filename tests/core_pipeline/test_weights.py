@@ -74,10 +74,13 @@ def test_a_closure_between_two_frames_is_not_lost():
 def test_count_and_times_of_frames():
     assert len(bake(tracks_of({"a": CLOSURE}, end=1.0), "pchip", 30).frames) == 31
     assert len(bake(tracks_of({"a": CLOSURE}, end=1.01), "pchip", 30).frames) == 32
-    shifted = tracks_of({"a": [(t + 7, v) for t, v in CLOSURE]}, start=7.0, end=8.0)
-    assert np.array_equal(bake(shifted, "linear", 50).frames, bake(tracks_of({"a": CLOSURE}), "linear", 50).frames) or (
-        bake(shifted, "linear", 50).frames == pytest.approx(bake(tracks_of({"a": CLOSURE}), "linear", 50).frames)
-    )
+
+
+def test_frame_i_is_at_start_plus_i_over_fps():
+    here, later = tracks_of({"a": CLOSURE}), tracks_of({"a": [(t + 7, v) for t, v in CLOSURE]}, start=7.0, end=8.0)
+    frames = bake(here, "linear", 200, snap=False).frames
+    assert frames[23:28, 0] == pytest.approx([1 / 3, 2 / 3, 1, 2 / 3, 1 / 3], abs=1e-6)
+    assert bake(later, "linear", 200, snap=False).frames == pytest.approx(frames, abs=1e-6)
 
 
 @pytest.mark.parametrize("fps", [0.0, 0.5, -30.0, 1001.0, float("nan"), float("inf")])

@@ -286,6 +286,14 @@ def test_a_word_is_asked_for_and_its_bigrams_are_ringed(qtbot, picker, picks):
     assert picks == [F_AH, ("ah", "d"), F_AH]
 
 
+def test_enter_before_the_answer_opens_the_first_bigram_when_it_comes(qtbot, picker, picks):
+    qtbot.keyClicks(picker.search, "fat")
+    qtbot.keyClick(picker.search, Qt.Key.Key_Return)
+    assert picks == []
+    picker.set_matches([F_AH, ("ah", "d")])
+    assert picks == [F_AH]
+
+
 def test_more_phones_show_each_pair(qtbot, picker):
     wanted = collect(picker.search_wanted)
     picker.search.setText("f ah d")

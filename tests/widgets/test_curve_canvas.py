@@ -190,6 +190,7 @@ def test_opening_another_bigram_ends_the_gesture_and_edits_neither(hand, canvas)
     hand.press(0.26, 0.97)
     hand.move(0.3, 0.7)
     canvas.set_bigram("d", "ih")
+    assert not canvas.busy
     canvas.set_curves({"open": OPEN})
     hand.move(0.35, 0.5)
     hand.release(0.35, 0.5)
@@ -507,6 +508,17 @@ def test_the_playhead_leaves_the_curves_as_they_are(canvas):
         canvas.set_playhead(0.97)
         QApplication.processEvents()
         assert abs(count(canvas, theme.pose_colour("FV")) - plain) <= 8
+
+
+def test_panning_under_the_playhead_shows_what_a_fresh_painting_shows(hand, canvas):
+    canvas.set_playhead(0.5)
+    canvas.grab()
+    hand.wheel(0.5, 0.5, 240)
+    hand.drag((0.4, 0.8), (0.5, 0.7), button=MIDDLE)
+    panned = canvas.grab().toImage()
+    canvas.set_playhead(None)
+    canvas.set_playhead(0.5)
+    assert canvas.grab().toImage() == panned
 
 
 def test_the_focus_ring_shows_who_has_the_keyboard(canvas, qtbot):

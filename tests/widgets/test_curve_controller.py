@@ -164,6 +164,14 @@ def test_a_pose_locked_in_the_middle_of_a_drag_stays_as_it_was():
     assert control.selection == {("FV", 2)}
 
 
+def test_a_pose_locked_in_the_middle_of_a_click_is_not_selected():
+    control = controller(open=HAT)
+    control.press(*px(0.5, 0.8))
+    control.set_locked({"open"})
+    control.release(*px(0.5, 0.8))
+    assert not control.selection
+
+
 def test_there_and_back_is_no_edit_and_leaves_the_very_object():
     control = controller(open=HAT)
     x, y = px(0.5, 0.8)

@@ -92,7 +92,12 @@ class Skin:
         away = points - centre
         ball = centre + away * (LID * self.character.eyes.radius / np.linalg.norm(away, axis=1, keepdims=True))
         share = smoothstep(1.5, EYE_RINGS[0], self._ratio)[:, None]
-        return points + share * (ball - points)
+        points = points + share * (ball - points)
+        # the crease between lid and face is softer than the clay's
+        loose = ((self._ratio > EYE_RINGS[0] + 0.01) & (self._ratio < 1.8) & (np.abs(points[:, 0]) > 0.07))[:, None]
+        for _ in range(10):
+            points = np.where(loose, (points + self.layout.neighbour_mean(points)) / 2, points)
+        return points
 
     def _smoothed(self, values: Array) -> Array:
         """(layout points,) values without the grain of the mesh."""

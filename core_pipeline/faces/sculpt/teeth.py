@@ -75,9 +75,9 @@ class _Row:
         back = size.behind_lips + (0 if self.upper else size.bite)
         x = arch[:, :1] + out[:, :1] * across
         z = arch[:, 1:] + out[:, 1:] * across - back - size.thickness
-        # the row follows the lips' smile
+        # the upper row follows the lips' smile
         mouth = self.character.mouth
-        y = y + 0.8 * mouth.smile * np.clip(x / mouth.half_width, -1, 1) ** 2
+        y = y + (0.8 if self.upper else 0.15) * mouth.smile * np.clip(x / mouth.half_width, -1, 1) ** 2
         points = np.stack([x, y, z], -1).reshape(-1, 3) + self.centre
         triangles = grid(len(self.along), len(section), closed=False)
         ends = []
@@ -91,7 +91,7 @@ class _Row:
         palette = self.character.palette
         base = linear(palette.teeth if is_tooth else palette.gums)
         depth = self.centre[2] - points[:, 2]
-        shade = 1 - 0.82 * smoothstep(0.20, 0.62, depth)
+        shade = 1 - 0.85 * smoothstep(0.16, 0.50, depth)
         if is_tooth:
             shade = shade * (1 - 0.22 * np.repeat(smoothstep(0.8, 1.0, self.from_middle), len(TOOTH)))
         return np.column_stack([base * shade[:, None], np.full(len(points), 0.85 if is_tooth else 0.6)])

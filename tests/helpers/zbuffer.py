@@ -1,0 +1,76 @@
+"""What of a face can be seen: a small depth buffer in numpy, free of any graphics card."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+
+import numpy as np
+
+from core_pipeline.faces.face import Face
+
+HALF = 0.62
+SIZE = 220
+
+
+def deformed(face: Face, weights: Mapping[str, float]) -> np.ndarray:
+    amounts = np.zeros(len(face.shapes), np.float32)
+    for shape, weight in weights.items():
+        amounts[face.shapes.index(shape)] = weight
+    return face.deform(amounts)
+
+
+def seen(
+    face: Face,
+    weights: Mapping[str, float],
+    centre: tuple[float, float, float],
+    yaw: float = 0.0,
+    pitch: float = 0.0,
+    half: float = HALF,
+) -> Counter[str]:
+    """Pixels of each part in a square window of half width `half` round `centre` (parallel projection, SIZE² pixels)."""
+    faces = visible_triangles(face, weights, centre, yaw, pitch, half)
+    names = np.full(len(face.triangles), "", dtype=object)
+    for name, (first, count) in face.parts.items():
+        names[first : first + count] = name
+    return Counter(names[faces[faces >= 0]].tolist())
+
+
+def visible_triangles(
+    face: Face,
+    weights: Mapping[str, float],
+    centre: tuple[float, float, float],
+    yaw: float = 0.0,
+    pitch: float = 0.0,
+    half: float = HALF,
+) -> np.ndarray:
+    """(SIZE, SIZE) the number of the nearest triangle at each pixel, −1 where there is none; pitch looks from above."""
+    y, p = np.radians(yaw), np.radians(pitch)
+    turn_y = np.array([[np.cos(y), 0, -np.sin(y)], [0, 1, 0], [np.sin(y), 0, np.cos(y)]])
+    turn_x = np.array([[1, 0, 0], [0, np.cos(p), -np.sin(p)], [0, np.sin(p), np.cos(p)]])
+    local = (deformed(face, weights).astype(float) - centre) @ (turn_x @ turn_y).T
+    local[:, :2] = (local[:, :2] / half + 1) * SIZE / 2
+    corners = local[face.triangles]
+    low = np.ceil(corners[..., :2].min(1) - 0.5).clip(0, SIZE).astype(int)
+    high = np.ceil(corners[..., :2].max(1) - 0.5).clip(0, SIZE).astype(int)
+    wide, tall = (high - low).T
+    which = np.repeat(np.arange(len(corners)), wide * tall)
+    step = np.arange(len(which)) - np.repeat(np.cumsum(wide * tall) - wide * tall, wide * tall)
+    column, row = low[which, 0] + step % wide[which], low[which, 1] + step // wide[which]
+    depth, inside = _depth(corners[which], column + 0.5, row + 0.5)
+    which, pixel, depth = which[inside], (row * SIZE + column)[inside], depth[inside]
+    order = np.lexsort((which, depth))
+    nearest = np.full(SIZE * SIZE, -1)
+    nearest[pixel[order]] = which[order]
+    return nearest.reshape(SIZE, SIZE)
+
+
+def _depth(corners: np.ndarray, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    (ax, ay, az), (bx, by, bz), (cx, cy, cz) = (corners[:, i].T for i in range(3))
+    area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+    area = np.where(area == 0, np.nan, area)
+    with np.errstate(invalid="ignore"):
+        v = ((x - ax) * (cy - ay) - (y - ay) * (cx - ax)) / area
+        w = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / area
+        inside = (v >= 0) & (w >= 0) & (v + w <= 1)
+    return az + v * (bz - az) + w * (cz - az), inside
