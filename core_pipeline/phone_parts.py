@@ -130,8 +130,14 @@ def read_recipe(path: Path) -> Recipe:
     for phone in recipe.phonemes:
         if phone not in recipe.phones:
             raise UserError(f"{path} has no row for {phone}: add [phones.{phone}].")
-    for section, rows in (("phones", recipe.phones), ("beside", recipe.beside), ("borrow", recipe.borrow), ("closures", recipe.closures.long)):
-        for phone in rows:
+    sections: dict[str, Iterable[str]] = {
+        "phones": recipe.phones,
+        "beside": recipe.beside,
+        "borrow": recipe.borrow,
+        "closures": recipe.closures.long,
+    }
+    for section, phones in sections.items():
+        for phone in phones:
             if phone not in recipe.phonemes:
                 raise UserError(f"{path}: [{section}] has {phone!r}, which is not among the phonemes: correct it.")
     for stroke in (recipe.closures.beside(phone) for phone in (*recipe.phonemes, SILENCE)):

@@ -107,16 +107,19 @@ def apart(x: Array, v: Array) -> tuple[Array, Array]:
 
     A run that touches 0 becomes 0, so that a pose still ends at weight 0.
     """
-    gap = x[1:] - x[:-1]
+    near = (x[1:] - x[:-1] <= NEAR).nonzero()[0] + 1
+    if not near.size:
+        return x, v
+    step = np.abs(v[near] - v[near - 1]) > STEP
+    touches = ((v[near] < ZERO) & (v[near - 1] >= ZERO)).any()
     keep = np.ones(x.size, bool)
-    np.greater(gap, NEAR, out=keep[1:])
-    keep[1:] |= np.abs(v[1:] - v[:-1]) > STEP
+    keep[near[~step]] = False
     k = keep.nonzero()[0]
-    if k.size < x.size:
-        low = np.minimum.reduceat(v, k)
-        x, v = x.take(k), v.take(k)
+    low = np.minimum.reduceat(v, k) if touches else None
+    x, v = x.take(k), v.take(k)
+    if low is not None:
         v[low < ZERO] = 0.0
-    if (x[1:] - x[:-1] < WIDTH).any():
+    if step.any():
         room = WIDTH * np.arange(x.size)
         x = np.maximum.accumulate(x - room) + room
     return x, v

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
-from PySide6.QtCore import QLine, QRect, Qt
-from PySide6.QtGui import QColor, QFontMetrics, QPainter, QPen
+from PySide6.QtCore import QLine, QPointF, QRect, Qt
+from PySide6.QtGui import QColor, QFontMetrics, QPainter, QPen, QPolygonF
 
 from core_pipeline.phonemes import SILENCE, Pair
 from core_pipeline.schedule import Schedule
@@ -77,6 +77,24 @@ def draw_loop(painter: QPainter, axis: TimeAxis, loop: tuple[float, float], tall
         if axis.sees(t):
             x = round(axis.px(t))
             painter.drawLine(x, 0, x, tall)
+
+
+def draw_playhead(painter: QPainter, axis: TimeAxis, t: float, tall: int) -> None:
+    """A line at `t` with a wedge at its top; at most 3 and 11 pixels wide."""
+    if axis.sees(t):
+        x = round(axis.px(t))
+        painter.fillRect(x, 0, 1, tall, theme.PLAYHEAD)
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(theme.PLAYHEAD)
+        painter.drawPolygon(QPolygonF([QPointF(x - 4, 0), QPointF(x + 5, 0), QPointF(x + 0.5, 7)]))
+
+
+def draw_hint(painter: QPainter, box: QRect, text: str) -> None:
+    """A friendly sentence where there is nothing to show yet."""
+    painter.fillRect(box, theme.BACKGROUND)
+    painter.setFont(theme.font(11.0))
+    painter.setPen(theme.MUTED)
+    painter.drawText(box, Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap, text)
 
 
 class RowNames:

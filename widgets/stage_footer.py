@@ -9,7 +9,7 @@ import numpy as np
 from PySide6.QtCore import QCoreApplication, QPointF, QRect, QRectF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPolygonF
 
-from core_pipeline.phonemes import SILENCE
+from core_pipeline.phonemes import EXAMPLES, SILENCE
 from core_pipeline.pipeline import Stages
 
 from . import theme
@@ -19,7 +19,7 @@ from .time_axis import TimeAxis, clock
 ROW = 18
 BLACK = QColor("#08090a")
 #: Pixels that must remain between two labels.
-GAP = 5.0
+GAP = 3.0
 #: Phones narrower than this (mean, pixels) have no names: the few that fit would mislead.
 READABLE = 8.0
 
@@ -56,7 +56,7 @@ def fit_labels(
         wide = metrics.horizontalAdvance(name)
         extra = sources[k] if sources and sources[k] != name else ""
         both = wide + 3 + small.horizontalAdvance(extra) if extra else wide
-        if both > right - left - GAP:
+        if both > right - left - 2 * GAP:
             extra, both = "", wide
         begin = (left + right - both) / 2
         # A name may stand over its phone's edges a little, but never touch its neighbour.
@@ -64,6 +64,16 @@ def fit_labels(
             labels.append(Label(first + k, name, extra, begin, both))
             free = begin + both + GAP
     return labels
+
+
+def phone_tip(stages: Stages, phone: int, sources: Sequence[str]) -> str:
+    """What a phone of the utterance is: "ae → ah (cat, cut, ago)  0.110 – 0.260 s"."""
+    name = stages.schedule.phones[phone]
+    source = sources[phone] if len(sources) == len(stages.schedule) else name
+    shown = name if source == name else f"{source} → {name}"
+    example = f" ({EXAMPLES[name]})" if name in EXAMPLES else ""
+    start, end = stages.schedule.times[phone : phone + 2].tolist()
+    return f"{shown}{example}  {start:.3f} – {end:.3f} s"
 
 
 class Footer:
@@ -210,4 +220,4 @@ class Footer:
             wide = metrics.horizontalAdvance(text)
             if edge + 2 >= free:
                 painter.drawText(QRectF(edge + 2, top, wide + 2, ROW - 1), Qt.AlignmentFlag.AlignVCenter, text)
-                free = edge + 2 + wide + GAP
+                free = edge + 2 + wide + 2 * GAP

@@ -13,11 +13,10 @@ from PySide6.QtCore import QEvent, QPoint, Qt, Signal
 from PySide6.QtGui import QFocusEvent, QHelpEvent, QKeyEvent, QMouseEvent, QWheelEvent
 from PySide6.QtWidgets import QToolTip, QWidget
 
-from core_pipeline.phonemes import EXAMPLES
 from core_pipeline.pipeline import Stages
 from core_pipeline.poses import MEANING
 
-from .stage_footer import ROW
+from .stage_footer import ROW, phone_tip
 from .stage_picking import Reading, bigram_at, phone_at, read
 from .stage_rows import Row
 from .stage_view import StageView
@@ -234,19 +233,8 @@ class StageOverlay(StageView):
                 return self.tr("Not shown for want of room: %1").replace("%1", ", ".join(hidden))
             return self.tr("Drag to scrub, Shift+drag for a loop range, double-click to see everything")
         if zone == "phone" and at.x() >= self.axis.x0:
-            return self._phone_tip(phone_at(self._stages, self.axis.time(at.x())))
+            return phone_tip(self._stages, phone_at(self._stages, self.axis.time(at.x())), self._sources)
         return ""
-
-    def _phone_tip(self, phone: int) -> str:
-        schedule = self._stages.schedule if self._stages is not None else None
-        if schedule is None:
-            return ""
-        name = schedule.phones[phone]
-        source = self._sources[phone] if len(self._sources) == len(schedule) else name
-        shown = name if source == name else f"{source} → {name}"
-        a, b = schedule.times[phone : phone + 2].tolist()
-        example = f" ({EXAMPLES[name]})" if name in EXAMPLES else ""
-        return f"{shown}{example}  {a:.3f} – {b:.3f} s"
 
     # Keyboard
 

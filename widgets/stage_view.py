@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from PySide6.QtCore import QPointF, QRect, QRectF, Qt
-from PySide6.QtGui import QPainter, QPaintEvent, QPen, QPixmap, QPolygonF, QResizeEvent
+from PySide6.QtGui import QPainter, QPaintEvent, QPen, QPixmap, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
 from core_pipeline.phonemes import Pair
@@ -49,7 +49,6 @@ class StageView(QWidget):
         self._styles = theme.STAGE_STYLES
         self._shown = frozenset(layer.name for layer in LAYERS if layer.default_on)
         self._reading: Reading | None = None
-        self._hint_font = theme.font(11.0)
         self._names = backdrop.RowNames()
         self._footer = Footer()
         self._axis = TimeAxis()
@@ -88,7 +87,8 @@ class StageView(QWidget):
         moved = index != self._index
         self._index, self._pair = index, pair
         span = self._span(index)
-        if moved and span is not None and not self._following:
+        # One that is partly seen stays put: it may have been clicked right there.
+        if moved and span is not None and not self._following and not self._axis.shows_any(*span):
             self._set_axis(self._axis.revealing(*span))
         self._redraw()
 
@@ -223,35 +223,20 @@ class StageView(QWidget):
         """Qt's hook: copies the sheet, then paints what moves."""
         painter = QPainter(self)
         if self._stages is None:
-            self._paint_hint(painter)
+            text = self.tr("Type a sentence above to see what the pipeline makes of your curves")
+            backdrop.draw_hint(painter, self.rect(), text)
         else:
             if self._sheet is None:
                 self._sheet = self._composed(self._stages)
             painter.drawPixmap(0, 0, self._sheet)
             self._paint_reading(painter, self._stages)
-            self._paint_playhead(painter)
+            backdrop.draw_playhead(painter, self._axis, self._playhead, self.height())
         if self.hasFocus():
             painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
             painter.setPen(QPen(theme.ACCENT, 1))
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.drawRect(self.rect().adjusted(0, 0, -1, -1))
         painter.end()
-
-    def _paint_hint(self, painter: QPainter) -> None:
-        painter.fillRect(self.rect(), theme.BACKGROUND)
-        painter.setFont(self._hint_font)
-        painter.setPen(theme.MUTED)
-        text = self.tr("Type a sentence above to see what the pipeline makes of your curves")
-        painter.drawText(self.rect(), Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap, text)
-
-    def _paint_playhead(self, painter: QPainter) -> None:
-        if not self._axis.sees(self._playhead):
-            return
-        x = round(self._axis.px(self._playhead))
-        painter.fillRect(x, 0, 1, self.height(), theme.PLAYHEAD)
-        painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(theme.PLAYHEAD)
-        painter.drawPolygon(QPolygonF([QPointF(x - 4, 0), QPointF(x + 5, 0), QPointF(x + 0.5, 7)]))
 
     def _paint_reading(self, painter: QPainter, stages: Stages) -> None:
         """Under the mouse: the curve that made this place, and the final weight."""

@@ -59,6 +59,10 @@ class TimeAxis:
         """Whether a time lies in what is seen."""
         return self.left <= t <= self.right
 
+    def shows_any(self, first: float, last: float) -> bool:
+        """Whether some of first…last lies in what is seen."""
+        return last > self.left and first < self.right
+
     def with_pixels(self, x0: float, x1: float) -> TimeAxis:
         """The same seconds on other pixels; at least one pixel is kept."""
         return replace(self, x0=x0, x1=max(x1, x0 + 1.0))

@@ -98,6 +98,19 @@ def test_phones_look_like_themselves(results: list[Stages], phone: str, pose: st
     assert least <= np.median(tops) <= most
 
 
+def test_long_vowels_open_beside_closed_lips(results: list[Stages]) -> None:
+    """As in "five" and "Bob", where a closure on either side wants the lips."""
+    tops = []
+    for stages in results:
+        phones, times = ("sil", *stages.schedule.phones, "sil"), stages.schedule.times
+        for i, (before, vowel, after) in enumerate(zip(phones, phones[1:], phones[2:], strict=False)):
+            if vowel in ("aa", "ao", "ow", "aw", "ay") and (before in CLOSURES or after in CLOSURES):
+                tops.append(highest(stages.magenta["open"], times[i], times[i + 1]))
+    assert len(tops) >= 30
+    assert np.percentile(tops, 10) > 0.3
+    assert np.median(tops) > 0.4
+
+
 def test_it_holds_for_what_the_voice_says_today(english: CurveSet) -> None:
     """The stored schedules are the voice's own; these are spoken now."""
     texts = [

@@ -11,12 +11,10 @@ from app import resources
 from app.editor import Editor
 from app.settings import ViewState
 from core_pipeline.files import curve_set_json
-from widgets import theme
 
 
 @pytest.fixture
 def editor(qtbot: QtBot, qapp: QApplication, tmp_path: Path) -> Iterator[Editor]:
-    theme.apply(qapp)
     editor = Editor(curve_set_json.load(resources.english_curves()), ViewState(tmp_path / "state"))
     editor.window.resize(1600, 1000)
     with qtbot.waitExposed(editor.window):

@@ -438,6 +438,13 @@ def test_opening_a_bigram_out_of_sight_brings_it_into_view(overlay):
     assert overlay.axis.sees(0.8)
 
 
+def test_opening_a_bigram_at_the_edge_of_the_view_moves_nothing(overlay):
+    overlay._set_axis(overlay.axis.at(0.25, 0.3))
+    before = overlay.axis
+    overlay.set_current(1, ("ah", "f"))
+    assert overlay.axis == before
+
+
 # Odd utterances and sizes
 
 

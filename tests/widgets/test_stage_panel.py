@@ -182,18 +182,41 @@ def test_the_safe_palette_reaches_the_chips(panel):
     assert sample == theme.STAGE_STYLES_CVD["blue"].colour
 
 
-def test_values_reach_the_overlay(panel):
-    panel.set_source_phones(("sil", "ae"))
+@pytest.mark.parametrize(
+    ("setter", "value", "back"),
+    [
+        ("set_source_phones", ["sil", "ae", "f", "ah", "p", "t", "l", "ow", "sil"], None),
+        ("set_playhead", 0.35, 0.0),
+        ("set_loop_range", (0.1, 0.2), None),
+        ("set_ghost", sentence(curves=curve_set(height=0.3)), None),
+        ("set_palette_safe", True, False),
+        ("set_active_pose", "FV", "open"),
+        ("set_stages", None, sentence()),
+    ],
+)
+def test_each_value_is_seen_and_can_be_taken_back(panel, setter, value, back):
+    before = panel.grab().toImage()
+    getattr(panel, setter)(value)
+    assert panel.grab().toImage() != before
+    getattr(panel, setter)(back)
+    assert panel.grab().toImage() == before
+
+
+def test_the_open_bigram_is_seen_and_source_phones_of_another_sentence_are_not(panel):
+    before = panel.grab().toImage()
+    panel.set_source_phones(["ae"])
+    assert panel.grab().toImage() == before
     panel.set_current(1, ("ah", "f"))
-    panel.set_following(True)
-    panel.set_playhead(0.3)
-    panel.set_ghost(sentence(curves=curve_set(height=0.3)))
-    panel.set_loop_range((0.1, 0.2))
-    assert not panel.grab().isNull()
-    panel.set_stages(None)
-    panel.set_ghost(None)
+    assert panel.grab().toImage() != before
     panel.set_current(None, None)
-    assert not panel.grab().isNull()
+    assert panel.grab().toImage() == before
+
+
+def test_following_reaches_the_overlay(panel):
+    panel.overlay._set_axis(panel.overlay.axis.zoomed(4, 0.0))
+    panel.set_following(True)
+    panel.set_playhead(0.5)
+    assert panel.overlay.axis.sees(0.5)
 
 
 def test_every_control_has_a_name(panel):

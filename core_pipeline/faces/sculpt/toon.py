@@ -44,10 +44,13 @@ POSES = {
         tongue=TongueBend(((-0.34, -0.70), (-0.16, -0.66), (-0.20, -0.52), (-0.20, -0.42))),
     ),
     "ShCh": MouthPose(
-        width=-0.30, forward=0.10, raise_upper=0.065, drop_lower=0.075, roll_upper=16, roll_lower=20, thick=0.10,
+        width=-0.30, forward=0.10, raise_upper=0.055, drop_lower=0.065, roll_upper=16, roll_lower=20, thick=0.10,
         corners=-0.03, corner_forward=0.04, upper_teeth=(0.0, 0.05), lower_teeth=(0.012, 0.05),
     ),
-    "PBM": MouthPose(width=0.03, roll_upper=-24, roll_lower=-24, thick=-0.36, forward=-0.008, slide=0.03, lower_teeth=(0.0, -0.03)),
+    "PBM": MouthPose(
+        width=0.03, roll_upper=-18, roll_lower=-26, thick=-0.36, forward=-0.008, slide=0.065, raise_upper=0.002,
+        drop_lower=0.002, lower_teeth=(0.0, -0.03),
+    ),
     "FV": MouthPose(
         jaw=3.5, width=0.03, raise_upper=0.06, tuck=(0.05, 0.105), roll_lower=-34, thick=-0.08, corners=-0.01,
         lower_teeth=(-0.04, -0.13),
@@ -81,7 +84,7 @@ TOON = Character(
     poses=POSES,
     hair=HAIR,
     rest_tongue=REST,
-    mouth=Mouth(smile=0.085, upper=0.052, lower=0.072, upper_depth=0.036, lower_depth=0.042),
+    mouth=Mouth(smile=0.085, upper=0.052, lower=0.072, upper_depth=0.036, lower_depth=0.042, lap=0.055),
     teeth=Dentition(half_width=0.325, behind_lips=0.085),
     eyes=Eyes(radius=0.285, upper=0.61, lower=0.56, iris=33, pupil=17),
     body=Body(middle=-0.20),
