@@ -30,7 +30,8 @@ class Session(QObject):
     def __init__(self, curve_set: CurveSet, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._curve_set = curve_set
-        self._preview: tuple[Pair, Bigram] | None = None
+        self._shown = curve_set  # the same, or with the gesture that is under way
+        self._preview: Pair | None = None
         self.utterance: Utterance | None = None
         self.stages: Stages | None = None
         self.pipeline_ms = 0.0
@@ -42,13 +43,11 @@ class Session(QObject):
     @property
     def curve_set(self) -> CurveSet:
         """The set as it sounds now: with the gesture that is under way, if any."""
-        if self._preview is None:
-            return self._curve_set
-        return self._curve_set.with_bigram(*self._preview)
+        return self._shown
 
     def set_curve_set(self, curve_set: CurveSet) -> None:
         """Use another set, or the same with an edit; a gesture's preview ends."""
-        self._curve_set = curve_set
+        self._curve_set = self._shown = curve_set
         self._preview = None
         self._turn.start()
 
@@ -58,14 +57,13 @@ class Session(QObject):
         curves  those that changed since the last call; earlier ones of the same gesture stay
         """
         if curves is None:
-            self._preview = None
+            self._preview, self._shown = None, self._curve_set
         else:
-            bigram = self._curve_set.bigrams.get(pair, Bigram())
-            if self._preview is not None and self._preview[0] == pair:
-                bigram = self._preview[1]
+            before = self._shown if self._preview == pair else self._curve_set
+            bigram = before.bigrams.get(pair, Bigram())
             for pose, curve in curves.items():
                 bigram = bigram.with_curve(pose, curve)
-            self._preview = (pair, bigram)
+            self._preview, self._shown = pair, self._curve_set.with_bigram(pair, bigram)
         self._turn.start()
 
     def set_utterance(self, utterance: Utterance | None) -> None:

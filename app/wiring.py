@@ -65,6 +65,7 @@ class Wiring(QObject):
         self._set_replaced()
         self._show_file()
         self._window.bigram_transport.set_length(BIGRAM_SECONDS)
+        self._window.canvas.setFocus()
         self._window.may_close = self._may_close
 
     # ── connections ──────────────────────────────────────────────────────────────────────────────

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QIcon, QKeySequence, QMouseEvent, QPainter, QPixmap
-from PySide6.QtWidgets import QToolButton, QWidget
+from PySide6.QtWidgets import QSizePolicy, QToolButton, QWidget
 
 from . import theme
 from .theme import StageStyle
@@ -23,6 +23,7 @@ class StageChip(QToolButton):
         self.setCheckable(True)
         self.setChecked(True)
         self.setIconSize(_ICON)
+        self.setSizePolicy(QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Fixed)
         self.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         self.setContextMenuPolicy(Qt.ContextMenuPolicy.PreventContextMenu)
         self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
@@ -54,6 +55,15 @@ class StageChip(QToolButton):
         """Only the sample, for a narrow panel; the name stays in the tooltip and for screen readers."""
         style = Qt.ToolButtonStyle
         self.setToolButtonStyle(style.ToolButtonIconOnly if compact else style.ToolButtonTextBesideIcon)
+
+    def minimumSizeHint(self) -> QSize:
+        """Room for the sample alone: the name must not keep the panel from shrinking."""
+        return QSize(_ICON.width() + 14, self.sizeHint().height())
+
+    @property
+    def full_width(self) -> int:
+        """About how many pixels the sample and the name need."""
+        return self.minimumSizeHint().width() + 8 + self.fontMetrics().horizontalAdvance(self.text())
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Qt's hook."""

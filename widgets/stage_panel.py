@@ -192,9 +192,7 @@ class StagePanel(QWidget):
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Qt's hook: in a narrow panel the chips keep only their samples, so that the reading has room."""
         super().resizeEvent(event)
+        full = sum(chip.full_width for chip in self.chips) + self.mode_box.sizeHint().width() + READING
         for chip in self.chips:
-            chip.set_compact(False)
-        full = sum(chip.sizeHint().width() for chip in self.chips) + self.mode_box.sizeHint().width()
-        for chip in self.chips:
-            chip.set_compact(full + READING > self.width())
+            chip.set_compact(full > event.size().width())
         self._fit_reading()

@@ -88,7 +88,6 @@ class FaceRenderer:
             with self._context:
                 self._gl.delete()
             self._gl = None
-            self._sent = False
         if self._context is not None and self._platform is not None:
             self._context.delete()
         self._context = None
@@ -104,10 +103,10 @@ class FaceRenderer:
         if self._gl is None:
             from .render_gl import FaceGL
 
-            self._gl = FaceGL()
-        if not self._sent:
+            self._gl = FaceGL(self._face)
+        elif not self._sent:
             self._gl.set_face(self._face)
-            self._sent = True
+        self._sent = True
         return self._gl.draw(
             vertices,
             view,

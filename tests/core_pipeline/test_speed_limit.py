@@ -100,7 +100,7 @@ def test_it_equals_a_grid_of_a_tenth_of_a_millisecond(schedule, curve_set, speed
 def test_a_long_utterance_loses_no_digits():
     # 900 s of hills on nine poses: running minima of v ∓ l_max·t reach 10^5
     hills = [(t / 10, (0.0, 0.05)[t % 2]) for t in range(9001)]
-    poses = {pose: hills for pose in "abcdefghi"}
+    poses = dict.fromkeys("abcdefghi", hills)
     tracks = tracks_of(poses, end=900.0)
     made = limit_speed(tracks, 15.0)
     assert made.x.size == tracks.x.size

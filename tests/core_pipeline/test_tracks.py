@@ -65,7 +65,7 @@ def test_minimal_by_hand(v, left):
 def test_the_point_where_a_pose_comes_to_rest_is_kept_however_gently_it_does():
     x = np.array([0, 0.1, 0.2, 0.2 + 1e-6, 2.0, 2.1, 2.2])
     v = np.array([0, 1e-5, 0, 0, 0, 1, 0])
-    for xm, vm in (minimal(x, v), minimal(x[:4], v[:4]), minimal(2.2 - x[3::-1], v[3::-1])):
+    for _xm, vm in (minimal(x, v), minimal(x[:4], v[:4]), minimal(2.2 - x[3::-1], v[3::-1])):
         assert vm[0] == vm[-1] == 0
         assert (vm > 0).any()
     assert minimal(x[:4], v[:4])[0].tolist() == [0, 0.1, 0.2]

@@ -6,6 +6,7 @@ reads one stage of the design as literally as possible; the tests compare it wit
 
 from __future__ import annotations
 
+import itertools
 from bisect import bisect_right
 
 Polyline = list[tuple[float, float]]
@@ -68,14 +69,14 @@ def envelope(lines: list[Polyline], choose) -> Polyline:
     """The highest (choose=max) or lowest (min) of several polylines, with a knot at every crossing."""
     times = sorted({t for line in lines for t, _ in line})
     knots: list[float] = times[:1]
-    for t0, t1 in zip(times, times[1:], strict=False):
+    for t0, t1 in itertools.pairwise(times):
         ends = [(value(line, t0), value(line, t1)) for line in lines]
         inner = []
         for k, (a0, a1) in enumerate(ends):
             for b0, b1 in ends[k + 1 :]:
                 if (a0 - b0) * (a1 - b1) < 0:
                     inner.append(t0 + (t1 - t0) * (a0 - b0) / ((a0 - b0) - (a1 - b1)))
-        knots += sorted(t for t in set(inner) if t0 < t < t1) + [t1]
+        knots += [*sorted(t for t in set(inner) if t0 < t < t1), t1]
     return [(t, choose(value(line, t) for line in lines)) for t in knots]
 
 
@@ -108,7 +109,7 @@ def yellow(line: Polyline, window: float) -> Polyline:
     while True:
         peaks = maxima(line)
         near = []
-        for (_, a), (b, _) in zip(peaks, peaks[1:], strict=False):
+        for (_, a), (b, _) in itertools.pairwise(peaks):
             (ta, va), (tb, vb) = line[a], line[b]
             chord = [va + (vb - va) * (t - ta) / (tb - ta) for t, _ in line[a : b + 1]]
             if tb - ta <= window + TINY:
@@ -121,8 +122,8 @@ def yellow(line: Polyline, window: float) -> Polyline:
             ends = (raised[0], raised[-1])
             above = [(t, v) for t, v in raised[1:-1] if v > value([straight[0], straight[-1]], t) + 1e-12]
             # a knot where the line leaves the chord must stay
-            leave = [p for p, q in zip(raised[1:-1], raised[2:], strict=False) if q in above and p not in above]
-            reach = [q for p, q in zip(raised, raised[1:-1], strict=False) if p in above and q not in above]
+            leave = [p for p, q in itertools.pairwise(raised) if q in above and p not in above]
+            reach = [q for p, q in itertools.pairwise(raised) if p in above and q not in above]
             line = line[:a] + sorted({*ends, *above, *leave, *reach}) + line[b + 1 :]
 
 
@@ -132,7 +133,7 @@ def yellow(line: Polyline, window: float) -> Polyline:
 def active(line: Polyline) -> list[tuple[float, float]]:
     """The stretches of time in which a line is above 0; what rounding tears apart is one."""
     found: list[tuple[float, float]] = []
-    for (t0, v0), (t1, v1) in zip(line, line[1:], strict=False):
+    for (t0, v0), (t1, v1) in itertools.pairwise(line):
         if v0 > TINY or v1 > TINY:
             if found and t0 - found[-1][1] < 1e-8:
                 found[-1] = (found[-1][0], t1)
@@ -171,7 +172,7 @@ def cyan(tracks: dict[str, Polyline], limits: dict[tuple[str, str], float], prio
             if pairs and active(done[upper]):
                 line = cap(done[upper], min(limits[pair] for pair in pairs))
                 far = [(min(begin, line[0][0]) - 1, 1.0), *line, (max(end, line[-1][0]) + 1, 1.0)]
-                lines.append(sorted({t: v for t, v in reversed(far)}.items()))
+                lines.append(sorted(dict(reversed(far)).items()))
         low = envelope(lines, min)
         done[order[k]] = [(t, v if v > TINY else 0.0) for t, v in low if begin <= t <= end]
     return done

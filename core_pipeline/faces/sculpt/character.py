@@ -70,6 +70,7 @@ class MouthPose:
     tuck               (up, back) of the lower lip alone
     upper_teeth, lower_teeth  (up, forward): where no one can see it they make room for the lips
     cheeks             lifted
+    flat               0…1: the slope on which the lips meet laid flat, so that the lower lip hides no teeth
     """
 
     jaw: float = 0.0
@@ -91,6 +92,7 @@ class MouthPose:
     upper_teeth: Pair = (0.0, 0.0)
     lower_teeth: Pair = (0.0, 0.0)
     cheeks: float = 0.0
+    flat: float = 0.0
     tongue: TongueBend | None = None
 
 

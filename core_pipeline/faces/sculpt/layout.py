@@ -54,7 +54,19 @@ def lay_out(border: Array, eye_rings: list[Array], spacing: Callable[[Array], Ar
     triangles[area < 0] = triangles[area < 0][:, ::-1]
     middle = (a + b + c) / 3
     kept = (np.abs(area) > 1e-9) & ~_inside(middle, half) & ~_inside(middle, loop)
+    _check_loops(triangles[kept], np.arange(len(half)), np.append(np.arange(len(loop)), 0) + len(half))
     return _both_sides(points, triangles[kept], len(half), len(loop))
+
+
+def _check_loops(triangles: Indices, *paths: Indices) -> None:
+    """ValueError unless every step of the paths is an edge of the mesh: else the lips or lids would gape."""
+    corners = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    edges = {(int(a), int(b)) for a, b in np.sort(corners, axis=1)}
+    for path in paths:
+        steps = np.sort(np.stack([path[:-1], path[1:]], -1), axis=1)
+        missing = sum((int(a), int(b)) not in edges for a, b in steps)
+        if missing:
+            raise ValueError(f"{missing} steps of a loop are no edges of the skin: space the rings round it more widely")
 
 
 def _lip_rings(half: Array) -> list[Array]:

@@ -123,7 +123,8 @@ class Lips:
         frame_along, frame_out = along * c + out * s, out * c - along * s
         section = frame_along * (v * thickness)[..., None] + frame_out * (n * depth)[..., None]
         section[..., 2] += sag
-        section[..., 1] -= mouth.lap * self.middle * (smoothstep(-0.85, 0.0, n) - 0.5)
+        # the lips meet on a slope: the upper one laps over the lower
+        section[..., 1] += mouth.lap * (1 - max(pose.rounded, pose.flat)) * self.middle * smoothstep(0.0, -0.85, n)
         built: Array = self.meeting + self.shift(pose) + section
         return built
 

@@ -35,7 +35,7 @@ REST = TongueBend(((-0.30, -0.68), (-0.02, -0.58), (-0.07, -0.36), (-0.085, -0.2
 
 POSES = {
     "open": MouthPose(
-        jaw=25, drop_lower=0.045, raise_upper=0.025, width=-0.10, corners=-0.03,
+        jaw=25, drop_lower=0.045, raise_upper=0.025, width=-0.10, corners=-0.03, flat=1.0,
         tongue=TongueBend(((-0.30, -0.68), (-0.02, -0.56), (-0.05, -0.36), (-0.065, -0.25))),
     ),
     "W": MouthPose(
@@ -45,18 +45,19 @@ POSES = {
     ),
     "ShCh": MouthPose(
         width=-0.30, forward=0.10, raise_upper=0.055, drop_lower=0.065, roll_upper=16, roll_lower=20, thick=0.10,
-        corners=-0.03, corner_forward=0.04, upper_teeth=(0.0, 0.05), lower_teeth=(0.012, 0.05),
+        corners=-0.03, corner_forward=0.04, upper_teeth=(0.0, 0.02),
+        lower_teeth=(0.012, 0.02), flat=1.0,
     ),
     "PBM": MouthPose(
         width=0.03, roll_upper=-18, roll_lower=-26, thick=-0.36, forward=-0.008, slide=0.065, raise_upper=0.002,
         drop_lower=0.002, lower_teeth=(0.0, -0.03),
     ),
     "FV": MouthPose(
-        jaw=3.5, width=0.03, raise_upper=0.06, tuck=(0.05, 0.105), roll_lower=-34, thick=-0.08, corners=-0.01,
+        jaw=3.5, width=0.03, raise_upper=0.06, flat=0.6, tuck=(0.045, 0.10), roll_lower=-34, thick=-0.08, corners=-0.01,
         lower_teeth=(-0.04, -0.13),
     ),
     "wide": MouthPose(
-        width=0.21, raise_upper=0.05, drop_lower=0.035, corners=0.045, forward=-0.02, thick=-0.10, cheeks=0.05,
+        width=0.21, raise_upper=0.05, drop_lower=0.035, corners=0.045, forward=-0.02, thick=-0.10, cheeks=0.05, flat=0.7,
     ),
     "tBack": MouthPose(tongue=TongueBend(((-0.30, -0.70), (0.20, -0.70), (0.02, -0.42), (-0.10, -0.36)))),
     "tRoof": MouthPose(tongue=TongueBend(((-0.30, -0.66), (-0.02, -0.60), (-0.06, -0.34), (0.15, -0.20)), 0.75)),
