@@ -42,6 +42,11 @@ class Actions:
         self.loop = self._action(tr("&Loop"), "Ctrl+Shift+L", tr("Begin again at the end"))
         self.loop.setCheckable(True)
         self.reset_view = self._action(tr("See the Face from the &Front"), "Ctrl+0", tr("Reset the face's camera"))
+        self.safe_colours = self._action(
+            tr("&Colours Safe for Every Eye"), None, tr("Stage colours that remain apart without full colour vision")
+        )
+        self.safe_colours.setCheckable(True)
+        self.default_layout = self._action(tr("Reset &Layout"), None, tr("Put all docks back in their places"))
         self.about = self._action(tr("&About Lipstitch"), None, "")
         self._menus()
 
@@ -63,7 +68,7 @@ class Actions:
             (tr("&Edit"), [self.undo, self.redo]),
             (tr("&Bigram"), [self.find, self.play_bigram]),
             (tr("&Playback"), [self.sentence, self.play, self.to_start, self.loop]),
-            (tr("&View"), [self.reset_view]),
+            (tr("&View"), [self.reset_view, self.safe_colours, self.default_layout]),
         ]  # fmt: skip
         for title, actions in entries:
             menu = bar.addMenu(title)

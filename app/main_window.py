@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QByteArray, Qt, Signal
 from PySide6.QtGui import QCloseEvent, QKeyEvent, QPalette, QShowEvent
 from PySide6.QtWidgets import (
     QDockWidget,
@@ -76,6 +76,7 @@ class MainWindow(QMainWindow):
         self._centre()
         self._docks()
         self._status()
+        self._first_state = self.saveState()
         self.setMinimumSize(900, 560)
         self.resize(1600, 1000)
 
@@ -100,9 +101,15 @@ class MainWindow(QMainWindow):
             self._sized = True
             self.default_layout()
 
+    def restore_layout(self, geometry: QByteArray, docks: QByteArray) -> None:
+        """Last time's layout, as far as it still fits."""
+        self.restoreGeometry(geometry)
+        self._sized = self.restoreState(docks)
+
     def default_layout(self) -> None:
         """Docks for this window's size: side by side where there is room, behind one another where not."""
         width, height = self.width(), self.height()
+        self.restoreState(self._first_state)
         if height < LOW:
             self.tabifyDockWidget(self.bigrams_dock, self.weak_dock)
             self.tabifyDockWidget(self.preview_dock, self.weights_dock)

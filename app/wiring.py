@@ -122,6 +122,7 @@ class Wiring(QObject):
         w.stage_panel.bigram_picked.connect(self._open_from_overlay)
         w.stage_panel.scrubbed.connect(self._preview.scrub)
         w.stage_panel.pose_activated.connect(self._pose_activated)
+        w.stage_panel.loop_range_changed.connect(self._set_loop_range)
         self._preview.weights_changed.connect(w.weights.set_weights)
         self._preview.bigram_moment.connect(w.canvas.set_playhead)
         self._preview.frame_ready.connect(self._frame_ready)
@@ -154,6 +155,8 @@ class Wiring(QObject):
         ):
             action.triggered.connect(lambda _=False, act=act: act())
         a.loop.toggled.connect(self._set_loop)
+        a.safe_colours.toggled.connect(w.stage_panel.set_palette_safe)
+        a.default_layout.triggered.connect(w.default_layout)
         w.play_wanted.connect(self._preview.toggle_sentence)
 
     # ── document → views ─────────────────────────────────────────────────────────────────────────
@@ -407,6 +410,7 @@ class Wiring(QObject):
         self._preview.player.set_utterance(utterance.schedule.end, utterance.audio)
         self._show_sound()
         w.transport.set_time(self._preview.player.time, self._preview.player.duration)
+        w.stage_panel.set_loop_range(None)
         if play:
             self._preview.show_sentence()
             self._preview.player.seek(0.0)
@@ -430,6 +434,13 @@ class Wiring(QObject):
         self._preview.player.set_looping(on)
         self._window.transport.set_loop(on)
         self._window.actions_.loop.setChecked(on)
+
+    def _set_loop_range(self, span: tuple[float, float] | None) -> None:
+        player = self._preview.player
+        player.set_loop_range(span)
+        if span is not None:
+            self._set_loop(True)
+        self._window.stage_panel.set_loop_range(player.loop_range)
 
     def _to_start(self) -> None:
         self._preview.scrub(0.0)
@@ -538,9 +549,9 @@ class Wiring(QObject):
     def restore(self) -> None:
         """Bring back last time's layout."""
         state, w = self._state, self._window
-        w.restoreGeometry(state.layout("geometry"))
-        w.restoreState(state.layout("docks"))
+        w.restore_layout(state.layout("geometry"), state.layout("docks"))
         self._set_loop(state.flag("loop", True))
+        w.actions_.safe_colours.setChecked(state.flag("safe colours", False))
         w.transport.set_speed(state.number("speed", 1.0))
 
     def remember(self) -> None:
@@ -549,6 +560,7 @@ class Wiring(QObject):
         state.put("geometry", w.saveGeometry())
         state.put("docks", w.saveState())
         state.put("sentence", w.sentence_bar.sentence)
+        state.put("safe colours", w.actions_.safe_colours.isChecked())
         state.put("loop", self._preview.player.looping)
         state.put("speed", self._preview.player.speed)
         self._caption.stop()

@@ -80,7 +80,7 @@ class FaceRenderer:
             raise
         except Exception as error:
             # Whatever a driver comes up with, in whatever class: the editor goes on without a picture.
-            raise UserError(_sentence(error)) from error
+            raise UserError(_sentence(error, started=self._gl is not None)) from error
 
     def close(self) -> None:
         """Free what was made, in the thread that drew. The renderer may be used again afterwards."""
@@ -117,11 +117,13 @@ class FaceRenderer:
         )
 
 
-def _sentence(error: Exception) -> str:
+def _sentence(error: Exception, started: bool) -> str:
     # PyOpenGL's own errors print the whole call; its description says what is wrong.
     told = getattr(error, "description", None) or str(error)
     told = told.decode(errors="replace") if isinstance(told, bytes) else str(told)
     reason = " ".join(told.split())[:200] or type(error).__name__
+    if started:
+        return f"The face cannot be drawn: OpenGL stopped working ({reason}). Try again, or in a smaller window."
     if sys.platform.startswith("linux"):
         cure = "Install the packages libegl1 and libgl1-mesa-dri, or the driver of your graphics card."
     else:

@@ -89,7 +89,7 @@ class FaceGL(Renderer):  # type: ignore[misc]
     ) -> NDArray[np.uint8]:
         """(h, w, 4) BGRA, top row first; the same array until the size changes.
 
-        vertices  (n, 6), all within `radius` of the origin
+        vertices  (n, 6), at rest within `radius` of the origin
         samples   per pixel, 0 for hard edges
         """
         width, height = (min(max(int(side), 1), self._largest) for side in size)

@@ -76,13 +76,13 @@ class View:
         return matrix
 
     def projection(self, size: tuple[int, int], radius: float) -> NDArray[np.float64]:
-        """(4, 4) OpenGL projection to a picture of (w, h) pixels, for a mesh within `radius` of the origin.
+        """(4, 4) OpenGL projection to a picture of (w, h) pixels, for a mesh within `radius` of the origin at rest.
 
         `fov` is the angle over the shorter side: in a picture higher than wide the cheeks stay in.
         """
         width, height = max(size[0], 1), max(size[1], 1)
         scale = min(width, height) / math.tan(math.radians(self.fov) / 2.0)
-        reach = 1.1 * radius + math.dist(self.target, (0.0, 0.0, 0.0))
+        reach = 1.5 * radius + math.dist(self.target, (0.0, 0.0, 0.0))
         near = max(self.distance - reach, 0.02 * self.distance)
         far = self.distance + reach
         matrix = np.zeros((4, 4))

@@ -24,7 +24,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import msgspec
 import numpy as np
@@ -35,8 +35,8 @@ from ..errors import UserError
 from ..phonemes import COMMON, SILENCE, TABLE_1, Pair, pair_name
 from ..poses import FACEFX
 from .atomic import read_bytes, write_atomically
-from .json_text import decode_json
-from .settings_json import decode_settings, encode_settings, number
+from .json_text import decode_json, is_deeper, shown
+from .settings_json import decode_settings, encode_settings, number, unknown_fields
 
 VERSION = 1
 SCHEMA = f"lipstitch.CurveSet.{VERSION}"
@@ -49,14 +49,19 @@ MAX_KEYS = 2000
 SLACK = 0.05
 #: A damaged file may have thousands of problems; this many are told.
 MAX_TOLD = 50
+#: Unknown fields are kept as they are, but a program must be able to walk them.
+MAX_DEPTH = 50
+
+_Label = Annotated[str, msgspec.Meta(max_length=200)]
+_Note = Annotated[str, msgspec.Meta(max_length=10_000)]
 
 
 class HeadRecord(msgspec.Struct):
     """The set's own fields."""
 
-    name: str = "Untitled"
-    language: str = "en"
-    base: str | None = None
+    name: _Label = "Untitled"
+    language: _Label = "en"
+    base: _Note | None = None
     phonemes: list[str] = msgspec.field(default_factory=lambda: list(COMMON))
     poses: list[str] = msgspec.field(default_factory=lambda: list(FACEFX))
     phoneme_map: dict[str, str] | None = None
@@ -66,8 +71,8 @@ class BigramRecord(msgspec.Struct):
     """One bigram's fields; keys stay raw so that a fault can be named by pose and key."""
 
     status: str = "draft"
-    source: str = "authored"
-    note: str = ""
+    source: _Note = "authored"
+    note: _Note = ""
     curves: dict[str, list[Any]] = {}
 
 
@@ -113,8 +118,11 @@ def examine(data: bytes, place: str) -> tuple[Reading | None, list[str]]:
     try:
         top = decode_json(data, place)
         newer = _check_schema(top, place)
+        if newer:
+            place = f"{place} (written by a newer Lipstitch)"
         head = _head(top, place)
         settings = None if top.get("settings") is None else decode_settings(top["settings"], place)
+        extra = _unknown_fields(top, place)
     except UserError as error:
         return None, [str(error)]
     bigrams_value = top.get("bigrams", {})
@@ -128,7 +136,7 @@ def examine(data: bytes, place: str) -> tuple[Reading | None, list[str]]:
         if len(problems) >= MAX_TOLD:
             problems.append(f"{place}: further problems are not listed.")
             break
-        where = f"{place}, bigram {name[:40]}"
+        where = f"{place}, bigram {shown(name)}"
         pair = _pair(name, phones)
         if pair is None:
             problems.append(f'{where}: not two phonemes of this set joined by "-"; correct or remove it.')
@@ -138,7 +146,6 @@ def examine(data: bytes, place: str) -> tuple[Reading | None, list[str]]:
             bigrams[pair] = bigram
     if problems:
         return None, problems
-    known = {*HeadRecord.__struct_fields__, "schema", "settings", "bigrams"}
     curve_set = CurveSet(
         name=head.name,
         language=head.language,
@@ -148,7 +155,7 @@ def examine(data: bytes, place: str) -> tuple[Reading | None, list[str]]:
         phoneme_map=TABLE_1 if head.phoneme_map is None else head.phoneme_map,
         settings=settings,
         base=head.base,
-        extra={k: v for k, v in top.items() if k not in known},
+        extra=extra,
     )
     return Reading(curve_set, tuple(repairs), newer), []
 
@@ -164,8 +171,8 @@ def dumps(curve_set: CurveSet, *, minified: bool = False) -> str:
         f'  "phonemes": {_text(list(curve_set.phonemes))}',
         f'  "poses": {_text(list(curve_set.poses))}',
         f'  "phoneme_map": {_text(dict(curve_set.phoneme_map))}',
-        f'  "settings": {encode_settings(curve_set.effective_settings)}',
-        *(f"  {_text(name)}: {_text(value)}" for name, value in curve_set.extra.items()),
+        f'  "settings": {encode_settings(curve_set.effective_settings, curve_set.extra.get("settings", {}))}',
+        *(f"  {_text(name)}: {_text(value)}" for name, value in curve_set.extra.items() if name != "settings"),
     ]
     bigrams = ",\n".join(_bigram_text(pair, curve_set.bigrams[pair], curve_set.poses) for pair in pairs)
     lines.append(f'  "bigrams": {{{chr(10) + bigrams + chr(10) + "  " if bigrams else ""}}}')
@@ -182,12 +189,25 @@ def _check_schema(top: dict[str, Any], place: str) -> bool:
     return int(match[1]) > VERSION
 
 
+def _unknown_fields(top: dict[str, Any], place: str) -> dict[str, Any]:
+    """What this version does not know, to be written again; that of the settings under "settings"."""
+    known = {*HeadRecord.__struct_fields__, "schema", "settings", "bigrams"}
+    extra = {name: value for name, value in top.items() if name not in known}
+    if more := unknown_fields(top.get("settings") or {}):
+        extra["settings"] = more
+    if is_deeper(extra, MAX_DEPTH):
+        raise UserError(f"{place} is nested too deeply to be one of our files: choose another.")
+    return extra
+
+
 def _head(top: dict[str, Any], place: str) -> HeadRecord:
     try:
         head = msgspec.convert(top, HeadRecord)
     except msgspec.ValidationError as error:
         raise UserError(f"{place}: {str(error)[:200].lower()}. Correct that value.") from error
     for what, names in (("phonemes", head.phonemes), ("poses", head.poses)):
+        if not 1 <= len(names) <= MAX_NAMES:
+            raise UserError(f'{place}: "{what}" has {len(names)} names; write 1 to {MAX_NAMES}.')
         odd = next(
             (n for n in names if not n or len(n) > 60 or not n.isprintable() or ("-" in n and what == "phonemes")), None
         )
@@ -196,8 +216,6 @@ def _head(top: dict[str, Any], place: str) -> HeadRecord:
         if len(set(names)) < len(names):
             double = next(n for n in names if names.count(n) > 1)
             raise UserError(f'{place}: "{what}" names {double!r} twice; remove one.')
-        if len(names) > MAX_NAMES:
-            raise UserError(f'{place}: "{what}" has {len(names)} names; at most {MAX_NAMES} are possible.')
     if SILENCE in head.phonemes:
         raise UserError(f'{place}: "{SILENCE}" means silence and is no phoneme; remove it from "phonemes".')
     return head
@@ -215,18 +233,22 @@ def _bigram(value: Any, where: str, poses: list[str], problems: list[str], repai
         problems.append(f"{where}: {str(error)[:200].lower()}. Correct that value.")
         return None
     if record.status not in STATUSES:
-        problems.append(f"{where}: there is no status {record.status[:40]!r}; write one of {', '.join(STATUSES)}.")
+        problems.append(f"{where}: there is no status “{shown(record.status)}”; write one of {', '.join(STATUSES)}.")
         return None
     curves: dict[str, Curve] = {}
     for pose, keys in record.curves.items():
         if pose not in poses:
-            problems.append(f'{where}: the pose {pose[:40]!r} is not in "poses"; correct the name or add it there.')
-        elif keys:
+            problems.append(f'{where}: the pose “{shown(pose)}” is not in "poses"; correct the name or add it there.')
+        elif not keys:
+            repairs.append(f"{where}, pose {pose}: a curve without keys was left out.")
+        else:
             curve = _curve(keys, f"{where}, pose {pose}", problems, repairs)
             if curve is not None:
                 curves[pose] = curve
     known = BigramRecord.__struct_fields__
     extra = {k: v for k, v in value.items() if k not in known}
+    if is_deeper(extra, MAX_DEPTH):
+        problems.append(f"{where}: an unknown field is nested too deeply; remove it.")
     return Bigram(curves, record.status, record.source, record.note, extra)
 
 
@@ -239,7 +261,7 @@ def _curve(keys: list[Any], where: str, problems: list[str], repairs: list[str])
             problems.append(f"{where}, key {i}: not a pair of numbers [time, value].")
             return None
         if any(not -SLACK <= x <= 1 + SLACK for x in key):
-            problems.append(f"{where}, key {i}: {key[0]:.4g}, {key[1]:.4g} lies outside 0…1; correct it.")
+            problems.append(f"{where}, key {i}: {_short(key[0])}, {_short(key[1])} lies outside 0…1; correct it.")
             return None
     array = np.array(keys, dtype=np.float64)
     clipped = np.clip(array, 0.0, 1.0)
@@ -258,6 +280,11 @@ def _curve(keys: list[Any], where: str, problems: list[str], repairs: list[str])
         v = highest
         repairs.append(f"{where}: {count - t.size} keys at the time of another were merged, the highest kept.")
     return Curve(t, v)
+
+
+def _short(number: float) -> str:
+    """A number for a message; a file may hold integers of thousands of digits."""
+    return f"{number:.4g}" if abs(number) < 1e300 else "a number of hundreds of digits"
 
 
 def _bigram_text(pair: Pair, bigram: Bigram, poses: tuple[str, ...]) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import codecs
 import json
+import math
 from typing import Any
 
 from ..errors import UserError
@@ -14,7 +15,7 @@ class DoubledNameError(ValueError):
 
 
 class NotFiniteError(ValueError):
-    """NaN or Infinity, which JSON does not have."""
+    """NaN or Infinity, which JSON does not have, or a number too large for any computer."""
 
 
 def decode_json(data: bytes, place: str) -> dict[str, Any]:
@@ -24,7 +25,7 @@ def decode_json(data: bytes, place: str) -> dict[str, Any]:
     """
     text = _text(data, place)
     try:
-        value = json.loads(text, object_pairs_hook=_no_doubles, parse_constant=_no_constant)
+        value = json.loads(text, object_pairs_hook=_no_doubles, parse_constant=_no_constant, parse_float=_finite)
     except json.JSONDecodeError as error:
         raise UserError(
             f"{place} is damaged at line {error.lineno}, column {error.colno}: {error.msg.lower()}. "
@@ -71,3 +72,28 @@ def _no_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 def _no_constant(name: str) -> float:
     raise NotFiniteError(name)
+
+
+def _finite(text: str) -> float:
+    """1e999 would be read as infinity, and could not be written again."""
+    value = float(text)
+    if not math.isfinite(value):
+        raise NotFiniteError(text[:40])
+    return value
+
+
+def shown(text: str, length: int = 40) -> str:
+    """A name from a file, fit for a message of one line: short, line ends and control characters escaped."""
+    short = text if len(text) <= length else text[: length - 1] + "…"
+    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in short)
+
+
+def is_deeper(value: Any, levels: int) -> bool:
+    """Whether lists and objects are nested more than `levels` deep."""
+    layer = [value]
+    for _ in range(levels + 1):
+        nested = (v for v in layer if isinstance(v, dict | list))
+        layer = [item for v in nested for item in (v.values() if isinstance(v, dict) else v)]
+        if not layer:
+            return False
+    return True

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from typing import Any
 
 import msgspec
@@ -11,7 +12,7 @@ from ..errors import UserError
 from ..settings import Constraint, Settings
 
 
-class SettingsRecord(msgspec.Struct, forbid_unknown_fields=False):
+class SettingsRecord(msgspec.Struct):
     """As the file holds it; every field may be missing and is then that of the preset "Paper"."""
 
     window: float | None = None
@@ -43,10 +44,16 @@ def decode_settings(value: Any, place: str) -> Settings:
         raise UserError(f"{place}, settings: {error}") from error
 
 
-def encode_settings(settings: Settings) -> str:
-    """The object as text, one constraint a line, indented for its place in the file."""
+def unknown_fields(value: dict[str, Any]) -> dict[str, Any]:
+    """What the file's object holds beyond what this version knows."""
+    return {name: v for name, v in value.items() if name not in SettingsRecord.__struct_fields__}
+
+
+def encode_settings(settings: Settings, extra: Mapping[str, Any]) -> str:
+    """The object as text, one constraint a line, indented for its place in the file; then the unknown fields."""
     rows = ",\n".join(f"      [{_text(c.a)}, {_text(c.b)}, {number(c.limit)}]" for c in settings.constraints)
     windows = ", ".join(f"{_text(pose)}: {number(width)}" for pose, width in settings.windows.items())
+    more = "".join(f",\n    {_text(name)}: {_text(value)}" for name, value in extra.items())
     return (
         "{\n"
         f'    "window": {number(settings.window)},\n'
@@ -54,7 +61,7 @@ def encode_settings(settings: Settings) -> str:
         f'    "constraints": [{chr(10) + rows + chr(10) + "    " if rows else ""}],\n'
         f'    "priorities": {_text(list(settings.priorities))},\n'
         f'    "l_max": {number(settings.speed_limit)},\n'
-        f'    "spline": {_text(settings.spline)}\n'
+        f'    "spline": {_text(settings.spline)}{more}\n'
         "  }"
     )
 

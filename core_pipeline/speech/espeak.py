@@ -31,6 +31,8 @@ from .utterance import Audio, Utterance, Word
 VOICES: Mapping[str, str] = MappingProxyType({"en-us": "American English", "gmw/en": "British English"})
 #: Words per minute that espeak can speak.
 SLOWEST, FASTEST = 80, 450
+#: Silence added around the sound, in seconds: time for the lips to take the first shape and leave the last.
+LEAD, TAIL = 0.1, 0.2
 #: Samples kept in the cache, over all utterances: about eight minutes.
 _CACHE = 10_000_000
 
@@ -203,16 +205,17 @@ class _Process:
 
 
 def _utterance(text: str, voice: str, answer: Mapping[str, Any], sound: bytes, rate: int) -> Utterance:
-    samples = np.frombuffer(sound, "<i2")
+    lead = round(LEAD * rate)
+    samples = np.pad(np.frombuffer(sound, "<i2"), (lead, round(TAIL * rate)))
     end = samples.size / rate
-    marks: list[Mark] = [(str(name), at / rate) for name, at in answer["phones"]]
+    marks: list[Mark] = [(str(name), (at + lead) / rate) for name, at in answer["phones"]]
     phones = to_phones(settled(marks, samples, rate), end, british=voice != "en-us")
     if all(phone == SILENCE for phone in phones.schedule.phones):
         raise UserError(f"Nothing in “{shortened(text)}” can be spoken: type at least one word.")
     notes = [f"The sound {name!r} of the voice is unknown and became silence." for name in phones.unknown]
     audio = Audio(samples.astype(np.float32) / np.float32(32768), rate)
     audio.samples.flags.writeable = False
-    spoken = [(int(position), at / rate) for position, _, at in answer["words"]]
+    spoken = [(int(position), (at + lead) / rate) for position, _, at in answer["words"]]
     return Utterance(text, phones.schedule, audio, _words(text, spoken, phones.schedule), tuple(notes))
 
 

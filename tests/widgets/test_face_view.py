@@ -1,8 +1,8 @@
 """The preview: what the mouse and keys wish for, and what is to be seen."""
 
 import pytest
-from PySide6.QtCore import QPoint, QPointF, QSize, Qt
-from PySide6.QtGui import QColor, QImage, QWheelEvent
+from PySide6.QtCore import QEvent, QPoint, QPointF, QSize, Qt
+from PySide6.QtGui import QColor, QImage, QMouseEvent, QWheelEvent
 from PySide6.QtWidgets import QLabel, QPushButton, QToolButton
 from pytestqt.qtbot import QtBot
 
@@ -59,6 +59,17 @@ def test_middle_drag_pans(qtbot, view):
     orbited, panned = collect(view.orbited), collect(view.panned)
     drag(qtbot, view, Qt.MouseButton.MiddleButton)
     assert panned == [(10.0, -5.0), (15.0, 15.0)]
+    assert orbited == []
+
+
+def test_shift_makes_the_left_drag_pan(qapp, qtbot, view):
+    orbited, panned = collect(view.orbited), collect(view.panned)
+    qtbot.mousePress(view, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.ShiftModifier, CENTRE)
+    place = QPointF(157, 104)
+    left, shift = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.ShiftModifier
+    qapp.sendEvent(view, QMouseEvent(QEvent.Type.MouseMove, place, view.mapToGlobal(place), left, left, shift))
+    qtbot.mouseRelease(view, Qt.MouseButton.LeftButton, shift, QPoint(157, 104))
+    assert panned == [(7.0, 4.0)]
     assert orbited == []
 
 

@@ -118,7 +118,9 @@ class Lips:
             v = v * np.where(n < -0.6, 1 - 0.75 * pose.rounded, 1)
             sag = sag * (1 - pose.rounded) - pose.rounded * 0.95 * pose.ring * np.clip(v, 0, None) ** 2
         roll = np.where(self.upper, pose.roll_upper, pose.roll_lower) * self.middle**0.7
-        turned = np.radians(roll * (1 - smoothstep(0.55, 1.2, PROFILE[:, 0, None]) * (n > 0)))
+        # the lip's edge rolls most; its border to the face and the gum side hardly
+        firm = np.where(n > 0, smoothstep(0.55, 1.2, PROFILE[:, 0, None]), smoothstep(-0.6, -1.4, n))
+        turned = np.radians(roll * (1 - firm))
         c, s = np.cos(turned)[..., None], np.sin(turned)[..., None]
         frame_along, frame_out = along * c + out * s, out * c - along * s
         section = frame_along * (v * thickness)[..., None] + frame_out * (n * depth)[..., None]

@@ -49,8 +49,8 @@ POSES = {
         lower_teeth=(0.012, 0.02), flat=1.0,
     ),
     "PBM": MouthPose(
-        width=0.03, roll_upper=-18, roll_lower=-26, thick=-0.36, forward=-0.008, slide=0.065, raise_upper=0.002,
-        drop_lower=0.002, lower_teeth=(0.0, -0.03),
+        width=0.03, roll_upper=-18, roll_lower=-26, thick=-0.36, forward=-0.008, slide=0.065, raise_upper=-0.002,
+        drop_lower=-0.002, lower_teeth=(0.0, -0.03),
     ),
     "FV": MouthPose(
         jaw=3.5, width=0.03, raise_upper=0.06, flat=0.6, tuck=(0.045, 0.10), roll_lower=-34, thick=-0.08, corners=-0.01,

@@ -12,6 +12,7 @@ import pytest
 from core_pipeline.errors import UserError
 from core_pipeline.faces.face import Camera
 from core_pipeline.faces.render import FaceRenderer
+from core_pipeline.faces.render_context import process_context
 from core_pipeline.faces.view import Background, View
 from tests.helpers.ball import ball
 
@@ -253,10 +254,42 @@ def test_without_opengl_one_sentence_says_so():
     renderer.close()
 
 
+class Fickle:
+    """A platform whose context is lost at the second frame, as after a driver's reset."""
+
+    def __init__(self):
+        self.frames = 0
+
+    def init_context(self):
+        pass
+
+    def make_current(self):
+        self.frames += 1
+        if self.frames == 2:
+            raise OSError("context lost")
+        process_context().__enter__()
+
+    def make_uncurrent(self):
+        process_context().__exit__()
+
+    def delete_context(self):
+        pass
+
+
+def test_after_a_lost_context_the_next_frame_is_drawn_again():
+    renderer = FaceRenderer(BALL, Fickle())
+    first = draw(renderer)
+    with pytest.raises(UserError, match=r"OpenGL stopped working \(context lost\)\. Try again"):
+        draw(renderer)
+    np.testing.assert_array_equal(draw(renderer), first)
+    renderer.close()
+
+
 ALONE = """
 import sys
 from core_pipeline.errors import UserError
 from core_pipeline.faces.render import FaceRenderer
+from core_pipeline.faces.render_context import process_context
 from core_pipeline.faces.view import Background, View
 from tests.helpers.ball import ball
 try:
