@@ -11,6 +11,7 @@ from core_pipeline.curve_set import STATUSES, CurveSet
 from core_pipeline.errors import UserError
 from core_pipeline.files import curve_set_json, schedule_json, stages_json, weights_files
 from core_pipeline.files.atomic import read_bytes, reason
+from core_pipeline.files.json_text import shown
 from core_pipeline.phonemes import SILENCE, pair_name
 from core_pipeline.pipeline import Stages
 from core_pipeline.settings import PRESETS
@@ -22,12 +23,19 @@ from core_pipeline.weights import sample
 
 from . import resources
 
+#: Nine hours at 30 frames a second.
+MAX_FRAMES = 1_000_000
+
 
 def load_curves(options: argparse.Namespace) -> CurveSet:
     """The curve set the options name, with their preset; repairs are told on stderr."""
     reading = curve_set_json.read(options.curves or resources.english_curves())
     for line in reading.repairs:
         print(f"lipstitch: {line}", file=sys.stderr)
+    if reading.newer:
+        print(
+            f"lipstitch: {options.curves} was written by a newer Lipstitch; this one may misread it.", file=sys.stderr
+        )
     curve_set = reading.curve_set
     return curve_set.with_settings(PRESETS[options.preset]) if options.preset else curve_set
 
@@ -41,6 +49,7 @@ def bake(options: argparse.Namespace) -> int:
         raise UserError("Nothing to write: name a file with --out weights.json (or .csv), or with --stages.")
     if not 1 <= options.fps <= 1000:
         raise UserError(f"{options.fps:g} frames per second is not possible: choose 1 to 1000 for --fps.")
+    _refuse_same_file([options.curves, options.schedule], outputs)
     curve_set = load_curves(options)
     settings = curve_set.effective_settings
     if options.spline:
@@ -51,6 +60,11 @@ def bake(options: argparse.Namespace) -> int:
     else:
         utterance = _say(options.text, options.voice)
         schedule = utterance.schedule
+    if options.out and schedule.duration * options.fps > MAX_FRAMES:
+        raise UserError(
+            f"{schedule.duration:g} s at {options.fps:g} frames per second are more than {MAX_FRAMES:,} frames: "
+            "choose a lower --fps or a shorter schedule."
+        )
     stages = pipeline.run(schedule, curve_set, settings)
     _tell_missing(stages)
     if options.out:
@@ -66,6 +80,15 @@ def bake(options: argparse.Namespace) -> int:
     return 0
 
 
+def _refuse_same_file(inputs: list[Path | None], outputs: list[Path | None]) -> None:
+    """UserError when an output would destroy what is read, or another output."""
+    seen = {path.absolute() for path in inputs if path is not None}
+    for path in filter(None, outputs):
+        if path.absolute() in seen or (path.is_file() and any(p.exists() and path.samefile(p) for p in seen)):
+            raise UserError(f"{path} is named twice, and would be overwritten: give each file a name of its own.")
+        seen.add(path.absolute())
+
+
 def check(path: Path) -> int:
     """Counts and missing bigrams of a curve set, or one line per problem."""
     data = read_bytes(path, curve_set_json.MAX_BYTES, "curve set")
@@ -77,7 +100,7 @@ def check(path: Path) -> int:
         if reading.newer:
             problems.append(f"{path} was written by a newer Lipstitch; this one may misread it.")
     for line in problems:
-        print(line)
+        print(shown(line, 2000))
     return 1 if problems else 0
 
 
@@ -157,13 +180,15 @@ def _draw_window(sentence: str, curves: Path | None, out: Path) -> None:
     import os
     import subprocess
 
-    command = [sys.executable, "-m", "app", "screenshot", sentence, "--out", str(out)]
+    command = [sys.executable, "-m", "app", "screenshot", "--out", str(out)]
     if curves is not None:
         command += ["--curves", str(curves)]
+    command += ["--", sentence]  # which may begin with a dash
     environment = {**os.environ, "QT_QPA_PLATFORM": "offscreen"}
     result = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     if result.returncode:
-        raise UserError(result.stderr.strip().removeprefix("lipstitch: ") or "The window could not be drawn.")
+        told = result.stderr.strip().rpartition("lipstitch: ")[2].splitlines()[:1]
+        raise UserError(f"The window could not be drawn: {told[0] if told else f'code {result.returncode}'}")
 
 
 def _say(text: str, voice: str) -> Utterance:

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import argparse
+import ctypes
 import os
 import sys
 from collections.abc import Sequence
+from importlib.util import find_spec
 from pathlib import Path
+from typing import NoReturn
 
 from core_pipeline.errors import UserError
+from core_pipeline.files.atomic import reason
+from core_pipeline.files.json_text import shown
 from core_pipeline.settings import PRESETS, SPLINES
 
 DEMO_SENTENCE = "Fat cats often find fish."
@@ -18,41 +23,83 @@ COMMANDS = ("bake", "check", "screenshot", "render")
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run `lipstitch`; the exit code: 0, 1 for problems `check` found, 2 for anything a user must mend."""
     arguments = list(sys.argv[1:] if arguments is None else arguments)
+    for stream in (sys.stdout, sys.stderr):  # a name this terminal cannot show is no reason to fail
+        if stream is not None and hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")
     try:
         refuse_name_clash()
         options = _parser().parse_args(
             arguments if arguments[:1] and _is_command(arguments[0]) else ["edit", *arguments]
         )
         code: int = options.run(options)
+        if sys.stdout is not None:
+            sys.stdout.flush()
     except UserError as error:
-        print(f"lipstitch: {error}", file=sys.stderr)
-        return 2
+        return _refuse(str(error))
     except KeyboardInterrupt:
         return 130
     except BrokenPipeError:  # `lipstitch check … | head`
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _drop_output()
         return 0
+    except OSError as error:
+        _drop_output()
+        return _refuse(f"{error.filename or 'The output'} failed: {reason(error)}.")
+    except MemoryError:
+        return _refuse("There is not enough memory for that: use a smaller file, a shorter text or fewer frames.")
+    except ImportError as error:
+        return _refuse(f"A part of Lipstitch cannot be loaded ({error}): python3 run.py installs what is missing.")
     return code
+
+
+def _refuse(sentence: str) -> int:
+    """One line on stderr, whatever a file's names hold."""
+    print(f"lipstitch: {shown(sentence, 2000)}", file=sys.stderr)
+    return 2
+
+
+def _drop_output() -> None:
+    """What is still buffered cannot be written; Python would try once more when it ends, and complain."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+class _Parser(argparse.ArgumentParser):
+    """Says what is wrong in one sentence, without the whole usage."""
+
+    def error(self, message: str) -> NoReturn:
+        raise UserError(f"{message} (see {self.prog} --help)")
 
 
 def refuse_name_clash() -> None:
     """UserError when `widgets` or `core_pipeline` of another program stand before ours on the path."""
-    import core_pipeline
-
     ours = Path(__file__).resolve().parent.parent
-    found = Path(core_pipeline.__file__ or "").resolve().parent.parent
-    if found != ours:
-        raise UserError(
-            f"Two programs get in each other's way: core_pipeline comes from {found}, app from {ours}. "
-            "Install Lipstitch in an environment of its own."
-        )
+    for name in ("widgets", "core_pipeline"):
+        spec = find_spec(name)
+        found = Path((spec.origin if spec is not None else None) or "").resolve().parent.parent
+        if found != ours:
+            raise UserError(
+                f"Two programs get in each other's way: {name} comes from {found}, app from {ours}. "
+                "Install Lipstitch in an environment of its own."
+            )
 
 
 def has_display() -> bool:
     """Whether a window could be shown."""
-    if not sys.platform.startswith("linux"):
+    if not sys.platform.startswith("linux") or os.environ.get("QT_QPA_PLATFORM") or os.environ.get("WAYLAND_DISPLAY"):
         return True
-    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY") or os.environ.get("QT_QPA_PLATFORM"))
+    return bool(os.environ.get("DISPLAY")) and _x_answers()
+
+
+def _x_answers() -> bool:
+    """Whether the X server that DISPLAY names is there; Qt would end the whole process where it is not."""
+    try:
+        xcb = ctypes.CDLL("libxcb.so.1")
+    except OSError:
+        return True  # Qt will say so itself
+    xcb.xcb_connect.restype = ctypes.c_void_p
+    connection = ctypes.c_void_p(xcb.xcb_connect(None, None))
+    failed = xcb.xcb_connection_has_error(connection)
+    xcb.xcb_disconnect(connection)
+    return not failed
 
 
 def _is_command(word: str) -> bool:
@@ -60,7 +107,7 @@ def _is_command(word: str) -> bool:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="lipstitch",
         description="An editor for phone-bigram lip sync. Without a command the editor opens.",
         epilog='Example: lipstitch bake "Fat cats often find fish" --out weights.json',

@@ -54,7 +54,10 @@ class Document(QObject):
         """
         self._check_editable()
         if not self.curve_set.has_pair(pair):
-            raise UserError(f"{pair[0]}-{pair[1]} is not a bigram of this set.")
+            raise UserError(f"{pair[0]}-{pair[1]} is not a bigram of this set: choose another.")
+        unknown = [pose for pose in curves if pose not in self.curve_set.poses]
+        if unknown:
+            raise UserError(f"This set has no pose {unknown[0]}: choose one of {', '.join(self.curve_set.poses)}.")
         before = self.curve_set.bigrams.get(pair)
         after = before if before is not None else Bigram()
         for pose, curve in curves.items():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -11,8 +12,11 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from core_pipeline.faces.render import FaceRenderer
+from core_pipeline.faces.render_context import Platform
 from core_pipeline.faces.view import View
 from core_pipeline.files.atomic import write_atomically
+
+_qt: object = None
 
 
 class FaceFrames:
@@ -24,7 +28,7 @@ class FaceFrames:
     def __init__(self, folder: Path, poses: tuple[str, ...], size: tuple[int, int]) -> None:
         face = load(folder)
         self._matrix = face.retarget(poses)
-        self._renderer = FaceRenderer(face)
+        self._renderer = FaceRenderer(face, _platform())
         self._view = View.of(face.camera)
         self._size = size
 
@@ -47,6 +51,19 @@ class FaceFrames:
         for i, picture in enumerate(pictures):
             strip.paste(picture, (i % columns * width, i // columns * height))
         _save_png(strip, path)
+
+
+def _platform() -> Platform | None:
+    """Where OpenGL comes from: on Linux the renderer finds EGL by itself, elsewhere only Qt can make a context."""
+    if sys.platform.startswith("linux"):
+        return None
+    from PySide6.QtGui import QGuiApplication
+
+    from .gl_platform import make_platform
+
+    global _qt  # noqa: PLW0603 - must live as long as the context
+    _qt = QGuiApplication.instance() or QGuiApplication(["lipstitch"])
+    return make_platform()
 
 
 def _save_png(picture: Image.Image, path: Path) -> None:

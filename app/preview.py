@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QObject, QTimer, Signal
@@ -168,9 +170,13 @@ class Preview(QObject):
 
     def reset_view(self) -> None:
         """See the face from the front again."""
-        if self._face is not None:
-            self._view = View.of(self._face.camera)
-            self.refresh()
+        self._view = self._view.reset()
+        self.refresh()
+
+    def cut_away(self, on: bool) -> None:
+        """Hide the near half of the head, so that the tongue can be seen."""
+        self._view = replace(self._view, cutaway=on)
+        self.refresh()
 
     def resize(self, width: int, height: int) -> None:
         """Draw for a view of this many pixels."""

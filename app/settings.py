@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 from PySide6.QtCore import QByteArray, QSettings, QStandardPaths
@@ -20,11 +21,12 @@ class ViewState:
         return value if isinstance(value, str) else default
 
     def number(self, name: str, default: float) -> float:
-        """A remembered number."""
+        """A remembered number, always finite."""
         try:
-            return float(self.text(name, str(default)))
+            value = float(self.text(name, str(default)))
         except ValueError:
             return default
+        return value if math.isfinite(value) else default
 
     def flag(self, name: str, default: bool) -> bool:
         """A remembered yes or no."""

@@ -131,6 +131,8 @@ class Wiring(QObject):
         w.face_view.panned.connect(self._preview.pan)
         w.face_view.zoomed.connect(self._preview.zoom)
         w.face_view.reset_wanted.connect(self._preview.reset_view)
+        w.face_view.cutaway_wanted.connect(self._preview.cut_away)
+        w.face_view.cutaway_wanted.connect(w.face_view.set_cutaway)
         w.face_view.retry_wanted.connect(self._preview.worker.retry)
         w.face_view.resized.connect(self._preview.resize)
 

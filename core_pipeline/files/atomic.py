@@ -19,7 +19,7 @@ def read_bytes(path: Path | str, limit: int, what: str) -> bytes:
             raise UserError(f"{path} is a folder: choose the {what} file in it.")
         with path.open("rb") as file:
             data = file.read(limit + 1)
-    except OSError as error:
+    except (OSError, ValueError) as error:
         raise UserError(f"Cannot read {path}: {reason(error)}.") from error
     if len(data) > limit:
         raise UserError(f"{path} is larger than {limit // 2**20} MB, too large for a {what}: choose another file.")
@@ -29,14 +29,20 @@ def read_bytes(path: Path | str, limit: int, what: str) -> bytes:
 def write_atomically(path: Path | str, data: bytes | str) -> None:
     """Write beside the target, flush to disk, then rename: the old file stays whole whatever happens.
 
-    Text is written as UTF-8 with LF. UserError names the path and the reason.
+    Text is written as UTF-8 with LF. A device or a pipe is written directly: it must not be replaced.
+    UserError names the path and the reason.
     """
     path = Path(path)
     raw = data.encode("utf-8") if isinstance(data, str) else data
-    target = path.resolve() if path.is_symlink() else path  # a link stays a link
     temporary = ""
     try:
-        handle, temporary = tempfile.mkstemp(prefix=f".{target.name[:100]}.", suffix=".tmp", dir=target.parent)
+        if path.exists() and not path.is_file() and not path.is_dir():
+            path.write_bytes(raw)
+            return
+        target = path.resolve() if path.is_symlink() else path  # a link stays a link
+        if target.exists() and not os.access(target, os.W_OK, effective_ids=os.access in os.supports_effective_ids):
+            raise PermissionError(errno.EACCES, "read-only file")  # a rename would not mind
+        handle, temporary = tempfile.mkstemp(prefix=f".{target.name[:40]}.", suffix=".tmp", dir=target.parent)
         with os.fdopen(handle, "wb") as file:
             file.write(raw)
             file.flush()
@@ -45,7 +51,7 @@ def write_atomically(path: Path | str, data: bytes | str) -> None:
         Path(temporary).replace(target)
         temporary = ""
         _sync_folder(target.parent)
-    except OSError as error:
+    except (OSError, ValueError, RuntimeError) as error:  # a NUL in the path; a link that leads to itself
         raise UserError(f"Cannot write {path}: {reason(error)}. Nothing was changed there.") from error
     finally:
         if temporary:
@@ -53,8 +59,10 @@ def write_atomically(path: Path | str, data: bytes | str) -> None:
                 Path(temporary).unlink()
 
 
-def reason(error: OSError) -> str:
+def reason(error: Exception) -> str:
     """What went wrong, and what to do, without errno's jargon."""
+    if not isinstance(error, OSError):
+        return "that is no possible path; check it"
     known = {
         errno.ENOENT: "there is no such file or folder; check the path",
         errno.EACCES: "you have no permission there; choose another place",
@@ -65,6 +73,9 @@ def reason(error: OSError) -> str:
         errno.ENOTDIR: "part of the path is a file, not a folder; check the path",
         errno.EISDIR: "it is a folder; name a file",
         errno.ENAMETOOLONG: "the name is too long; choose a shorter one",
+        errno.EFBIG: "the file would be larger than is allowed there; choose another place",
+        errno.EEXIST: "there is a file of that name; choose another name",
+        errno.ELOOP: "that link leads to itself; choose another path",
     }
     return known.get(error.errno or 0, (error.strerror or str(error)).lower())
 
@@ -86,9 +97,9 @@ def _sync_folder(folder: Path) -> None:
     """Make the rename itself durable, where the system can."""
     if os.name != "posix":
         return
-    handle = os.open(folder, os.O_RDONLY)
-    try:
-        with contextlib.suppress(OSError):  # some network file systems refuse
+    with contextlib.suppress(OSError):  # some network file systems refuse, some folders cannot be listed
+        handle = os.open(folder, os.O_RDONLY)
+        try:
             os.fsync(handle)
-    finally:
-        os.close(handle)
+        finally:
+            os.close(handle)

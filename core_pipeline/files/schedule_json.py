@@ -13,7 +13,7 @@ from ..errors import UserError
 from ..phonemes import SILENCE
 from ..schedule import Schedule
 from .atomic import read_bytes, write_atomically
-from .json_text import decode_json
+from .json_text import decode_json, shown
 
 SCHEMA = "lipstitch.Schedule.1"
 MAX_BYTES = 64 * 2**20
@@ -58,7 +58,7 @@ def _check_phones(schedule: Schedule, curve_set: CurveSet, place: str) -> None:
     for i, phone in enumerate(schedule.phones):
         if phone not in known:
             raise UserError(
-                f"{place}: phone {i} is {phone[:40]!r}, which the curve set {curve_set.name!r} does not know; "
+                f"{place}: phone {i} is “{shown(phone)}”, which the curve set {curve_set.name!r} does not know; "
                 f"write one of {' '.join(curve_set.phonemes)}, {SILENCE} or a phone of its map."
             )
 

@@ -205,14 +205,16 @@ def test_poses_do_not_influence_each_other_before_cyan(schedule, curve_set, sett
 def reach(stages: Stages, spans, settings: Settings) -> list[tuple[float, float]]:
     """The spans widened by every window that touches them: a fill between two peaks may decide about the next."""
     widened = []
-    for begin, end in spans:
-        for pose in POSES:
-            window, peaks = settings.window_of(pose) + 1e-6, stages.blue[pose].t
-            touched = True
-            while touched:
+    for span in spans:
+        begin, end = span
+        touched = True
+        while touched:
+            touched = False
+            for pose in POSES:
+                window, peaks = settings.window_of(pose) + 1e-6, stages.blue[pose].t
                 near = peaks[(peaks >= begin - window) & (peaks <= end + window)]
-                touched = near.size > 0 and (near.min() < begin or near.max() > end)
-                begin, end = min([begin, *near[:1]]), max([end, *near[-1:]])
+                if near.size and (near[0] < begin or near[-1] > end):
+                    begin, end, touched = min(begin, near[0]), max(end, near[-1]), True
         widened.append((begin, end))
     return widened
 

@@ -41,7 +41,9 @@ class Lips:
         self.character = character
         mouth = character.mouth
         columns = character.lip_columns
-        angle = 2 * np.pi * np.arange(columns) / columns - np.pi / 2
+        even = 2 * np.pi * np.arange(columns) / columns - np.pi / 2
+        # columns crowd at the corners of the mouth; this thins them out there
+        angle = even + 0.16 * np.sin(2 * even)
         self.cos, self.sin = np.cos(angle), np.sin(angle)
         self.cos[np.abs(self.cos) < 1e-12] = 0.0
         self.sin[np.abs(self.sin) < 1e-12] = 0.0
@@ -53,9 +55,9 @@ class Lips:
         self.meeting = np.stack([x, y, clay.front(x, y)], -1)
         bow = 1 + mouth.bow * (0.10 * np.exp(-(((np.abs(s) - 0.27) / 0.13) ** 2)) - 0.22 * np.exp(-((s / 0.12) ** 2)))
         full = np.where(self.upper, mouth.upper * bow, mouth.lower)
-        self.thickness = 0.016 + full * self.middle**1.05
+        self.thickness = 0.026 + full * self.middle**1.05
         self.depth = 0.012 + np.where(self.upper, mouth.upper_depth, mouth.lower_depth) * self.middle**0.8
-        along = np.stack([s * (1 - self.middle) ** 0.7, self.sin, 0 * s], -1)
+        along = np.stack([s * (1 - self.middle) ** 2.4, self.sin, 0 * s], -1)
         self.along = along / np.linalg.norm(along, axis=-1, keepdims=True)
         normal = clay.gradient(self.meeting)
         out = 0.5 * normal + np.array([0, 0, 0.5])
@@ -85,7 +87,7 @@ class Lips:
         moved = np.zeros((len(s), 3))
         moved[:, 0] = pose.width * self.meeting[:, 0]
         moved[:, 1] = np.where(self.upper, pose.raise_upper, -pose.drop_lower) * e**1.15 + pose.corners * s * s
-        slide = pose.slide * e**0.6
+        slide = pose.slide * e
         moved[:, 1] -= np.where(self.upper, slide, -slide) / 2
         moved[:, 1] += np.where(self.upper, 0, pose.tuck[0] * e**0.8)
         x, y = self.meeting[:, 0] + moved[:, 0], mouth.height + mouth.smile * s * s + pose.corners * s * s
@@ -103,7 +105,7 @@ class Lips:
         """(RINGS, columns, 3) without the jaw."""
         mouth = self.character.mouth
         v, n = PROFILE[:, 0, None], PROFILE[:, 1, None]
-        thin = np.where(self.upper, 1 + pose.thick, 1 + pose.thick + pose.thick_lower)
+        thin = 1 + (pose.thick + np.where(self.upper, 0, pose.thick_lower)) * smoothstep(0, 0.6, self.middle)
         thickness, depth = self.thickness * thin, self.depth * (1 + 0.5 * pose.thick)
         along, out = self.along, self.out
         sag = self._sag
@@ -117,7 +119,7 @@ class Lips:
             depth = depth + pose.rounded * (0.6 * pose.ring - depth)
             v = v * np.where(n < -0.6, 1 - 0.75 * pose.rounded, 1)
             sag = sag * (1 - pose.rounded) - pose.rounded * 0.95 * pose.ring * np.clip(v, 0, None) ** 2
-        roll = np.where(self.upper, pose.roll_upper, pose.roll_lower) * self.middle**0.7
+        roll = np.where(self.upper, pose.roll_upper, pose.roll_lower) * smoothstep(0, 0.8, self.middle)
         # the lip's edge rolls most; its border to the face and the gum side hardly
         firm = np.where(n > 0, smoothstep(0.55, 1.2, PROFILE[:, 0, None]), smoothstep(-0.6, -1.4, n))
         turned = np.radians(roll * (1 - firm))

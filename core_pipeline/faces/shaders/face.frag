@@ -18,7 +18,7 @@ const vec3 BOUNCE = vec3(0.205, 0.14, 0.11);
 const vec3 RIM_FROM = vec3(0.7276, 0.4366, -0.5292);
 const vec3 RIM = vec3(2.3, 3.3, 4.9);
 const vec3 INSIDE = vec3(0.16, 0.10, 0.105);   // of a head cut open; sRGB
-const float PENUMBRA = 0.007;   // of the shadow map's width
+const float PENUMBRA = 0.009;   // of the shadow map's width
 const float BIAS = 0.006;       // of its depth
 
 // How much of the key light arrives, 0…1: four taps, each over four texels.
@@ -54,7 +54,8 @@ void main() {
     float edge = 1.0 - toward;
     edge *= edge;
     float behind = clamp(dot(n, RIM_FROM) * 1.25 + 0.25, 0.0, 1.0);
-    vec3 rim = RIM * (edge * behind);
+    // White would turn blue; and teeth have it from behind only because no shadow map keeps the rim out.
+    vec3 rim = RIM * (edge * behind * (0.3 + 0.7 * flesh));
 
     // Blinn-Phong with the energy kept: a glossy spot is small and bright, a dull one wide and faint.
     float hardness = exp2(2.5 + 7.0 * gloss);
