@@ -51,7 +51,7 @@ class Autosave(QObject):
     def __init__(self, document: Document, folder: Path, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._document = document
-        self._copy = folder / f"{os.getpid()}.json"
+        self.copy = folder / f"{os.getpid()}.json"
         self._complained = False
         self._writing: threading.Thread | None = None
         self._timer = QTimer(self)
@@ -82,12 +82,12 @@ class Autosave(QObject):
     def _write(self, curve_set: CurveSet, path: Path | None) -> None:
         try:
             try:
-                self._copy.parent.mkdir(parents=True, exist_ok=True)
+                self.copy.parent.mkdir(parents=True, exist_ok=True)
             except OSError as error:
-                raise UserError(f"cannot make {self._copy.parent}: {error.strerror}") from error
+                raise UserError(f"cannot make {self.copy.parent}: {error.strerror}") from error
             origin = {"path": str(path) if path is not None else None, "pid": os.getpid()}
-            write_atomically(_origin(self._copy), json.dumps(origin))
-            write_atomically(self._copy, curve_set_json.dumps(curve_set))
+            write_atomically(_origin(self.copy), json.dumps(origin))
+            write_atomically(self.copy, curve_set_json.dumps(curve_set))
         except UserError as error:
             if not self._complained:
                 self._complained = True
@@ -99,7 +99,7 @@ class Autosave(QObject):
     def clear(self) -> None:
         """The work is saved or given up: no copy is needed."""
         self.finish()
-        for file in (self._copy, _origin(self._copy)):
+        for file in (self.copy, _origin(self.copy)):
             with contextlib.suppress(OSError):
                 file.unlink()
 

@@ -89,7 +89,8 @@ class FileActions(QObject):
                 self._document.recover(recovery.curve_set, recovery.path)
                 self.autosave.write()
                 self.autosave.finish()
-                recovery.discard()
+                if recovery.copy != self.autosave.copy:  # in a container a crashed session may have had our number
+                    recovery.discard()
                 return
             recovery.discard()
 
@@ -165,8 +166,17 @@ class FileActions(QObject):
         if not chosen:
             return None
         path = Path(chosen)
-        ending = kind[kind.rfind("(*") + 2 : -1]
-        return path if path.suffix else path.with_name(path.name + ending)
+        if path.suffix:
+            return path
+        path = path.with_name(path.name + kind[kind.rfind("(*") + 2 : -1])
+        return path if not path.exists() or self._may_replace(path) else None
+
+    def _may_replace(self, path: Path) -> bool:
+        """The dialog has asked for the name without its ending only."""
+        answer = QMessageBox.question(
+            self._window, self.tr("Replace the file?"), self.tr("{0} is already there. Replace it?").format(path)
+        )
+        return answer == _Button.Yes
 
     # ── close ────────────────────────────────────────────────────────────────────────────────────
 

@@ -55,7 +55,8 @@ class FaceFrames:
 
 def _platform() -> Platform | None:
     """Where OpenGL comes from: on Linux the renderer finds EGL by itself, elsewhere only Qt can make a context."""
-    if sys.platform.startswith("linux"):
+    on_linux = sys.platform.startswith("linux")
+    if on_linux:
         return None
     from PySide6.QtGui import QGuiApplication
 

@@ -83,11 +83,12 @@ def run(schedule: Schedule, curve_set: CurveSet, settings: Settings | None = Non
     """
     settings = curve_set.effective_settings if settings is None else settings
     schedule = schedule.mapped(curve_set.phonemes, curve_set.phoneme_map)
-    missing: dict[Pair, int] = {}
-    for pair in schedule.pairs():
-        if pair not in curve_set.bigrams and SILENCE not in pair:
-            missing[pair] = missing.get(pair, 0) + 1
     red = timewarp(curve_set.packed, schedule.phones, schedule.times)
+    missing: dict[Pair, int] = {}
+    for i in red.absent.tolist():
+        pair = schedule.phones[i], schedule.phones[i + 1]
+        if SILENCE not in pair:
+            missing[pair] = missing.get(pair, 0) + 1
     blue = stitch(red)
     yellow = smooth(blue, np.array([settings.window_of(pose) for pose in curve_set.poses]))
     cyan = constrain(yellow, settings)

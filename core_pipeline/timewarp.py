@@ -41,6 +41,7 @@ class Warped:
 
     x, v   (m,) knots, first all even bigrams, then all odd ones
     even   how many knots belong to even bigrams
+    absent (k,) numbers of the bigrams that the set does not have
     ends   (2·poses·half,) where each cell's knots end; a cell is (even | odd, pose, bigram // 2)
     """
 
@@ -50,6 +51,7 @@ class Warped:
     v: Array
     even: int
     ends: NDArray[np.intp]
+    absent: NDArray[np.intp]
     start: float
     duration: float
 
@@ -77,7 +79,8 @@ def timewarp(packed: PackedSet, phones: tuple[str, ...], times: Array) -> Warped
     start, duration = float(times[0]), float(times[-1] - times[0])
     if not bigrams or not poses:
         nothing = np.zeros(0)
-        return Warped(packed.poses, phones, nothing, nothing, 0, np.zeros(2 * poses, np.intp), start, duration)
+        none = np.zeros(0, np.intp)
+        return Warped(packed.poses, phones, nothing, nothing, 0, np.zeros(2 * poses, np.intp), none, start, duration)
 
     # Per bigram, padded to an even number so that it splits into (even, odd) × half.
     half = (bigrams + 1) // 2
@@ -115,4 +118,5 @@ def timewarp(packed: PackedSet, phones: tuple[str, ...], times: Array) -> Warped
         shift = np.minimum(RAMP, packed.keys.room[k] * w) * packed.keys.ramp[k]
         x[ramps] += shift
         v[ramps] += shift / w * packed.keys.slope[k]
-    return Warped(packed.poses, phones, x, v, even, ends, start, duration)
+    absent = (row[:bigrams] == empty).nonzero()[0]
+    return Warped(packed.poses, phones, x, v, even, ends, absent, start, duration)

@@ -119,6 +119,12 @@ def test_rounding_dust_does_not_count_as_active():
     assert made.at(np.array([0.34, 0.5, 0.8])) == pytest.approx([0.8] * 3)
 
 
+def test_what_is_left_of_a_pose_below_rounding_is_exactly_zero():
+    high = [(0.1, 0), (0.3, 0.3 - 1e-12), (0.7, 0.3 - 1e-12), (0.9, 0)]
+    made = constrain(tracks_of({"a": OPEN, "b": high}), limits("ab", ab=0.3))["a"]
+    assert made.at(np.array([0.3, 0.5, 0.7])).tolist() == [0, 0, 0]
+
+
 @given(schedules(), curve_sets(), settings())
 def test_the_sum_law(schedule, curve_set, settings):
     stages = run(schedule, curve_set, settings)

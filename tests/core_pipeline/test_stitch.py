@@ -77,6 +77,14 @@ def test_rounding_dust_is_zero():
     assert blue({"xy": [(0, 1e-12)]}, [0, 1, 2], "xy") == [(0, 0), (2, 0)]
 
 
+def test_a_valley_down_to_rounding_dust_ends_the_support():
+    valley = Curve.of([(0, 0), (0.3, 1), (0.4, 1e-12), (0.6, 1e-12), (0.7, 1), (1, 0)])
+    curve_set = CurveSet(phonemes=("x", "y"), poses=("a",), bigrams={("x", "y"): Bigram({"a": valley})})
+    for phones in ("xy", "xyxy"):  # one half of the bigrams alone, and both
+        track = run(Schedule(phones, range(len(phones) + 1)), curve_set).blue["a"]
+        assert track.v[2:4].tolist() == [0, 0], "exactly"
+
+
 def test_a_step_of_a_few_nanoseconds_is_a_step_and_no_slope():
     # phones of 10 µs: the closing ramp lasts some nanoseconds, and the long phone after it must not tilt it
     times = [0, 1.01e-5, 2.02e-5, 0.5, 1.0]
