@@ -17,7 +17,7 @@ from core_pipeline.files.json_text import shown
 from core_pipeline.settings import PRESETS, SPLINES
 
 DEMO_SENTENCE = "Fat cats often find fish."
-COMMANDS = ("bake", "check", "screenshot", "render")
+COMMANDS = ("edit", "bake", "check", "render", "screenshot")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -109,41 +109,63 @@ def _is_command(word: str) -> bool:
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser(
         prog="lipstitch",
+        usage="lipstitch [FILE] [--sentence TEXT]\n       lipstitch COMMAND …     (lipstitch COMMAND --help says more)",
         description="An editor for phone-bigram lip sync. Without a command the editor opens.",
         epilog='Example: lipstitch bake "Fat cats often find fish" --out weights.json',
     )
     parser.add_argument("--version", action="version", version=f"lipstitch {_version()}")
-    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True, prog="lipstitch")
 
-    edit = commands.add_parser("edit", help=argparse.SUPPRESS, description="Open the editor.", prog="lipstitch")
-    edit.add_argument("file", nargs="?", type=Path, help="a curve set to open")
-    edit.add_argument("--sentence", help="what to type first")
+    def command(name: str, purpose: str, example: str) -> argparse.ArgumentParser:
+        return commands.add_parser(
+            name, help=purpose, description=f"{purpose[0].upper()}{purpose[1:]}.", epilog=f"Example: {example}"
+        )
+
+    edit = command("edit", "open the editor, as without a command", "lipstitch edit my-curves.json")
+    edit.add_argument("file", nargs="?", type=Path, metavar="FILE", help="a curve set to open")
+    edit.add_argument("--sentence", metavar="TEXT", help="what to type first")
     edit.set_defaults(run=_edit)
 
-    bake = commands.add_parser("bake", help="turn a sentence or a schedule into weights per frame")
+    bake = command(
+        "bake",
+        "turn a sentence or a schedule into weights per frame",
+        'lipstitch bake "Fat cats often find fish" --out weights.json',
+    )
     _speech_options(bake, text_optional=True)
     bake.add_argument("--schedule", type=Path, metavar="FILE", help="phones and times as JSON, instead of a text")
     bake.add_argument("--out", type=Path, metavar="FILE", help="weights, .json or .csv")
     bake.add_argument("--stages", type=Path, metavar="FILE", help="all five stages, .json")
     bake.add_argument("--schedule-out", type=Path, metavar="FILE", help="the schedule that was used, .json")
     bake.add_argument("--sound", type=Path, metavar="FILE", help="the sound of the sentence, .wav")
-    bake.add_argument("--spline", choices=SPLINES, help="default: the curve set's own")
-    bake.add_argument("--fps", type=float, default=60, help="frames per second, 1 to 1000 (default 60)")
+    bake.add_argument("--spline", choices=SPLINES, help="final spline (default: the curve set's own)")
+    bake.add_argument("--fps", type=float, default=60, metavar="N", help="frames per second, 1 to 1000 (default 60)")
     bake.add_argument("--no-snap", action="store_true", help="do not put each peak on its nearest frame")
     bake.set_defaults(run=_bake)
 
-    check = commands.add_parser("check", help="validate a curve set: 0 when good, 1 with a line per problem")
-    check.add_argument("file", type=Path, help="a curve set, .json")
+    check = command(
+        "check",
+        "validate a curve set: exit code 0 when it is good, 1 with a line per problem",
+        "lipstitch check my-curves.json",
+    )
+    check.add_argument("file", type=Path, metavar="FILE", help="a curve set, .json")
     check.set_defaults(run=_check)
 
-    render = commands.add_parser("render", help="draw the face saying a sentence, frame by frame")
+    render = command(
+        "render", "draw the face saying a sentence, frame by frame", 'lipstitch render "Hello there" --out frames'
+    )
     _speech_options(render)
-    render.add_argument("--out", type=Path, required=True, metavar="FOLDER", help="folder for the PNG frames")
-    render.add_argument("--fps", type=float, default=30, help="frames per second (default 30)")
+    render.add_argument(
+        "--out", type=Path, required=True, metavar="FOLDER", help="folder for the PNG frames and the sound"
+    )
+    render.add_argument("--fps", type=float, default=30, metavar="N", help="frames per second, 1 to 240 (default 30)")
     render.add_argument("--size", type=_size, default=(512, 512), metavar="WxH", help="pixels (default 512x512)")
     render.set_defaults(run=_render)
 
-    shot = commands.add_parser("screenshot", help="draw the editor's window off screen, in mid-sentence")
+    shot = command(
+        "screenshot",
+        "draw the editor's window off screen, in mid-sentence",
+        'lipstitch screenshot "Hello there" --out window.png',
+    )
     _speech_options(shot)
     shot.add_argument("--out", type=Path, required=True, metavar="FILE", help="the picture, .png")
     shot.add_argument("--size", type=_size, default=(1600, 1000), metavar="WxH", help="pixels (default 1600x1000)")
@@ -152,10 +174,10 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _speech_options(parser: argparse.ArgumentParser, *, text_optional: bool = False) -> None:
-    parser.add_argument("text", nargs="?" if text_optional else None, help="what to say")
+    parser.add_argument("text", metavar="TEXT", nargs="?" if text_optional else None, help="what to say")
     parser.add_argument("--curves", type=Path, metavar="FILE", help="curve set (default: our English set)")
     parser.add_argument("--preset", choices=tuple(PRESETS), help="pipeline settings (default: the curve set's own)")
-    parser.add_argument("--voice", default="en-us", help="espeak-ng voice (default en-us)")
+    parser.add_argument("--voice", metavar="NAME", default="en-us", help="espeak-ng voice (default en-us)")
 
 
 def _size(text: str) -> tuple[int, int]:

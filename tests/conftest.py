@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QApplication
 
 from widgets import theme
 
-_quick = {"deadline": None, "max_examples": 60, "suppress_health_check": [HealthCheck.too_slow]}
+_quick = {"deadline": None, "max_examples": 200, "suppress_health_check": [HealthCheck.too_slow]}
 hypothesis_settings.register_profile("here", **_quick)
 hypothesis_settings.register_profile("ci", derandomize=True, **_quick)
 hypothesis_settings.load_profile("ci" if os.environ.get("CI") == "true" else "here")

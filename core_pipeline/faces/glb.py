@@ -14,14 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core_pipeline.faces.face import Camera, Face, Floats
-from core_pipeline.faces.gltf_file import GltfFile, Json
+from core_pipeline.faces.gltf_file import LARGEST, GltfFile, Json
 from core_pipeline.faces.normals import VertexNormals, seam_groups
 
 MAX_VERTICES = 2_000_000
 MAX_MORPH_BYTES = 2**30
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 
-Matrix = NDArray[np.float64]
+Matrix = NDArray[np.floating[Any]]
 
 
 def read_glb(path: str | Path) -> Face:
@@ -62,19 +62,21 @@ def _placed_meshes(gltf: GltfFile) -> Iterator[tuple[Json, Matrix]]:
 
 def _world(gltf: GltfFile) -> dict[int, Matrix]:
     """Node → matrix, for the nodes of the scene."""
-    children = {child for node in gltf.items("nodes") for child in _list(gltf, node, "children")}
+    children = {child for node in gltf.items("nodes") for child in gltf.numbers(node, "children")}
     roots = [index for index in range(len(gltf.items("nodes"))) if index not in children]
     if gltf.items("scenes"):
-        roots = _list(gltf, gltf.item("scenes", gltf.json.get("scene", 0)), "nodes")
+        roots = gltf.numbers(gltf.item("scenes", gltf.json.get("scene", 0)), "nodes")
     placed: dict[int, Matrix] = {}
-    waiting = [(root, np.eye(4)) for root in roots]
+    waiting: list[tuple[int, Matrix]] = [(root, np.eye(4)) for root in roots]
     while waiting:
         index, above = waiting.pop(0)
         node = gltf.item("nodes", index)
         if index in placed:
             raise gltf.fail(f"node {index} is in the scene twice; export the file again.")
         placed[index] = above @ _local(gltf, node)
-        waiting += [(child, placed[index]) for child in _list(gltf, node, "children")]
+        if np.abs(placed[index]).max() > LARGEST:
+            raise gltf.fail(f"node {index} stands {np.abs(placed[index]).max():.0e} away; export the file again.")
+        waiting += [(child, placed[index]) for child in gltf.numbers(node, "children")]
     return placed
 
 
@@ -100,40 +102,35 @@ def _numbers(gltf: GltfFile, values: object, count: int) -> Matrix:
         numbers = np.asarray(values, float)
     except (TypeError, ValueError):
         numbers = np.array(np.nan)
-    if numbers.shape != (count,) or not np.isfinite(numbers).all():
-        raise gltf.fail(f"a transform or colour is not {count} numbers; export the file again.")
+    if numbers.shape != (count,) or not (np.abs(numbers) <= LARGEST).all():
+        raise gltf.fail(f"a transform or colour is not {count} sensible numbers; export the file again.")
     return numbers
-
-
-def _list(gltf: GltfFile, entry: Json, key: str) -> list[int]:
-    values = entry.get(key, [])
-    if not isinstance(values, list) or not all(isinstance(value, int) for value in values):
-        raise gltf.fail(f"“{key}” is not a list of numbers; export the file again.")
-    return values
 
 
 def _primitives(gltf: GltfFile, node: Json) -> Iterator[tuple[Json, list[str], str]]:
     mesh = gltf.item("meshes", node["mesh"])
     title = str(node.get("name") or mesh.get("name") or f"mesh {node['mesh']}")
-    primitives = [item for item in mesh.get("primitives", []) if item.get("mode", _TRIANGLES) in (_TRIANGLES, _STRIP, _FAN)]
-    counts = {len(primitive.get("targets", [])) for primitive in primitives}
+    drawn = [
+        item for item in gltf.parts(mesh, "primitives") if item.get("mode", _TRIANGLES) in (_TRIANGLES, _STRIP, _FAN)
+    ]
+    counts = {len(gltf.parts(primitive, "targets")) for primitive in drawn}
     if len(counts) > 1:
         raise gltf.fail(f"the parts of mesh “{title}” have different numbers of morph targets {sorted(counts)}.")
     count = counts.pop() if counts else 0
     extras = mesh.get("extras")
     names = extras.get("targetNames") if isinstance(extras, dict) else None
-    if names is None:
+    if not isinstance(names, list):
         names = [f"target {number}" for number in range(count)]
     if len(names) != count:
         raise gltf.fail(f"mesh “{title}” has {count} morph targets but names {len(names)}; export the file again.")
-    for number, primitive in enumerate(primitives):
+    for number, primitive in enumerate(drawn):
         own = primitive.get("extras")
         part = own.get("part") if isinstance(own, dict) else None
         yield primitive, [str(name) for name in names], str(part or (f"{title} {number + 1}" if number else title))
 
 
 def _patch(gltf: GltfFile, node: Json, matrix: Matrix, primitive: Json, names: list[str], title: str) -> _Patch:
-    attributes, targets = primitive.get("attributes", {}), primitive.get("targets", [])
+    attributes, targets = gltf.part(primitive, "attributes"), gltf.parts(primitive, "targets")
     if "POSITION" not in attributes:
         raise gltf.fail(f"mesh “{title}” has no positions; export the file again.")
     count = gltf.count(attributes["POSITION"])
@@ -170,7 +167,7 @@ def _placement(gltf: GltfFile, node: Json, matrix: Matrix, attributes: Json, cou
     if "skin" not in node or not {"JOINTS_0", "WEIGHTS_0"} <= set(attributes):
         return matrix
     skin = gltf.item("skins", node["skin"])
-    joints = _list(gltf, skin, "joints")
+    joints = gltf.numbers(skin, "joints")
     world = _world(gltf)
     moved = np.array([world.get(joint, np.eye(4)) for joint in joints]).reshape(-1, 4, 4)
     if "inverseBindMatrices" in skin:
@@ -198,7 +195,9 @@ def _move(place: Matrix, vectors: Floats, w: int) -> Floats:
 
 def _unit(vectors: Floats) -> Floats:
     length = np.linalg.norm(vectors, axis=1, keepdims=True)
-    unit: Floats = np.where(length > 0, vectors / np.where(length > 0, length, 1), (0.0, 0.0, 1.0)).astype(np.float32)
+    good = np.abs(length - 1) < 1e-5  # left alone, so that reading and writing changes nothing
+    scaled = np.where(length > 0, vectors / np.where(length > 0, length, 1), (0.0, 0.0, 1.0))
+    unit: Floats = np.where(good, vectors, scaled).astype(np.float32)
     return unit
 
 
@@ -223,18 +222,18 @@ def _triangles(gltf: GltfFile, primitive: Json, count: int, title: str) -> NDArr
 
 
 def _colours(gltf: GltfFile, primitive: Json, count: int) -> Floats:
-    """Vertex colours × the material's colour; gloss is the fourth vertex colour, or what the material's roughness leaves."""
+    """Vertex colours × the material's colour; the gloss is our own fourth colour, else what the roughness leaves."""
     material = gltf.item("materials", primitive["material"]) if "material" in primitive else {}
-    surface = material.get("pbrMetallicRoughness", {})
+    surface = gltf.part(material, "pbrMetallicRoughness")
     base = _numbers(gltf, surface.get("baseColorFactor", (1, 1, 1, 1)), 4)
     colours = np.ones((count, 4), np.float32)
     colours[:, 3] = 1 - np.clip(_numbers(gltf, [surface.get("roughnessFactor", 0.6)], 1)[0], 0, 1)
-    index: Any = primitive.get("attributes", {}).get("COLOR_0")
+    index: Any = gltf.part(primitive, "attributes").get("COLOR_0")
     if index is not None:
         kind = "VEC4" if gltf.item("accessors", index).get("type") == "VEC4" else "VEC3"
         own = gltf.read(index, kind).astype(np.float32)
         colours[:, :3] = own[:, :3]
-        if kind == "VEC4" and primitive.get("extras", {}).get("glossInAlpha"):
+        if kind == "VEC4" and primitive.get("extras") == {"glossInAlpha": True}:
             colours[:, 3] = own[:, 3]
     colours[:, :3] *= base[:3]
     return np.clip(colours, 0, 1)
@@ -247,6 +246,11 @@ def _join(gltf: GltfFile, patches: list[_Patch]) -> Face:
         raise gltf.fail(f"{sum(sizes):,} vertices × {len(shapes)} shapes need more than 1 GB; reduce the mesh.")
     first = np.concatenate([[0], np.cumsum(sizes)]).astype(np.uint32)
     triangles = np.concatenate([patch.triangles + start for patch, start in zip(patches, first, strict=False)])
+    far = max(
+        (float(np.abs(a).max(initial=0)) for p in patches for a in (p.positions, *p.deltas.values())), default=0.0
+    )
+    if far > LARGEST:
+        raise gltf.fail(f"a vertex stands {far:.0e} away; export the file in metres or centimetres.")
     if not len(triangles):
         raise gltf.fail("its meshes have no triangles; export the face as a mesh.")
     positions = np.concatenate([patch.positions for patch in patches])

@@ -75,7 +75,7 @@ class _Pack:
             "type": kind,
         }
         if bounds:
-            accessor |= {"min": values.min(0).tolist(), "max": values.max(0).tolist()}
+            accessor |= _bounds(values)
         self.accessors.append(accessor)
         return len(self.accessors) - 1
 
@@ -89,8 +89,9 @@ class _Pack:
             "indices": {"bufferView": self._view(moving, None), "componentType": 5125},
             "values": {"bufferView": self._view(delta[moving], None)},
         }
-        bounds = {"min": delta.min(0).tolist(), "max": delta.max(0).tolist()}
-        self.accessors.append({"componentType": 5126, "count": len(delta), "type": "VEC3", "sparse": sparse} | bounds)
+        self.accessors.append(
+            {"componentType": 5126, "count": len(delta), "type": "VEC3", "sparse": sparse} | _bounds(delta)
+        )
         return len(self.accessors) - 1
 
     def _view(self, values: NDArray[Any], target: int | None) -> int:
@@ -101,3 +102,7 @@ class _Pack:
         self.views.append(view)
         self.data += raw + b"\0" * (-len(raw) % 4)
         return len(self.views) - 1
+
+
+def _bounds(values: NDArray[Any]) -> dict[str, list[float]]:
+    return {"min": (values.min(0) + 0.0).tolist(), "max": (values.max(0) + 0.0).tolist()}

@@ -20,9 +20,11 @@ from core_pipeline.errors import UserError
 
 MAX_FILE = 512 * 2**20
 MAX_VALUES = 64 * 2**20
+LARGEST = 1e6
 KNOWN_EXTENSIONS = frozenset({"KHR_mesh_quantization", "KHR_materials_unlit", "KHR_texture_transform"})
 _MAGIC = b"glTF"
 _TYPES = {5120: np.int8, 5121: np.uint8, 5122: np.int16, 5123: np.uint16, 5125: np.uint32, 5126: np.float32}
+_TOP = {5120: 127, 5121: 255, 5122: 32767, 5123: 65535, 5125: 2**32 - 1}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 
 Json = dict[str, Any]
@@ -45,10 +47,7 @@ class GltfFile:
 
     def items(self, name: str) -> list[Json]:
         """A top-level list of the document, such as `nodes`; empty when there is none."""
-        found = self.json.get(name, [])
-        if not isinstance(found, list) or not all(isinstance(item, dict) for item in found):
-            raise self.fail(f"“{name}” is not a list of objects; export the file again.")
-        return found
+        return self.parts(self.json, name)
 
     def item(self, name: str, index: object) -> Json:
         """One entry of a top-level list."""
@@ -56,6 +55,27 @@ class GltfFile:
         if isinstance(index, bool) or not isinstance(index, int) or not 0 <= index < len(found):
             raise self.fail(f"it refers to {name} {index!r}, but has {len(found)}; export the file again.")
         return found[index]
+
+    def part(self, entry: Json, key: str) -> Json:
+        """An object inside another one; empty when it is not there."""
+        found = entry.get(key, {})
+        if not isinstance(found, dict):
+            raise self.fail(f"“{key}” is not an object; export the file again.")
+        return found
+
+    def parts(self, entry: Json, key: str) -> list[Json]:
+        """A list of objects inside an object; empty when it is not there."""
+        found = entry.get(key, [])
+        if not isinstance(found, list) or not all(isinstance(item, dict) for item in found):
+            raise self.fail(f"“{key}” is not a list of objects; export the file again.")
+        return found
+
+    def numbers(self, entry: Json, key: str) -> list[int]:
+        """A list of whole numbers inside an object; empty when it is not there."""
+        found = entry.get(key, [])
+        if not isinstance(found, list) or not all(type(value) is int for value in found):
+            raise self.fail(f"“{key}” is not a list of numbers; export the file again.")
+        return found
 
     def count(self, index: object) -> int:
         """Number of elements of an accessor, without reading it."""
@@ -68,7 +88,7 @@ class GltfFile:
         if accessor.get("type") != kind:
             raise self.fail(f"{where} is {accessor.get('type')!r} where {kind} is expected; export the file again.")
         component = accessor.get("componentType")
-        if component not in _TYPES:
+        if type(component) is not int or component not in _TYPES:
             raise self.fail(f"{where} has the unknown component type {component!r}; export the file again.")
         count, width, dtype = self._whole(accessor, "count"), _WIDTHS[kind], np.dtype(_TYPES[component])
         if count * width > MAX_VALUES:
@@ -79,20 +99,23 @@ class GltfFile:
         else:
             values = np.zeros((count, width), dtype)
         if "sparse" in accessor:
-            values = self._with_sparse(values, accessor["sparse"], where)
+            values = self._with_sparse(values, self.part(accessor, "sparse"), where)
         if accessor.get("normalized") and dtype.kind in "iu":
-            return np.maximum(values.astype(np.float32) / np.iinfo(dtype).max, -1.0)
+            fractions: NDArray[Any] = np.maximum(values.astype(np.float32) / _TOP[component], -1.0)
+            return fractions
         if dtype.kind == "f" and not np.isfinite(values).all():
             raise self.fail(f"{where} holds values that are not numbers (NaN or infinite); export the file again.")
+        if dtype.kind == "f" and np.abs(values).max(initial=0) > LARGEST:
+            raise self.fail(f"{where} holds values above {LARGEST:,.0f}; export the file in metres or centimetres.")
         return values
 
     def _with_sparse(self, values: NDArray[Any], sparse: Json, where: str) -> NDArray[Any]:
-        if not isinstance(sparse, dict):
-            raise self.fail(f"{where}: its sparse part is not an object; export the file again.")
         count = self._whole(sparse, "count")
-        indices, changed = sparse.get("indices"), sparse.get("values")
-        if not isinstance(indices, dict) or not isinstance(changed, dict) or count > len(values):
-            raise self.fail(f"{where}: its sparse part is broken; export the file again.")
+        indices, changed = self.part(sparse, "indices"), self.part(sparse, "values")
+        if count > len(values):
+            raise self.fail(
+                f"{where}: its sparse part changes {count} of {len(values)} elements; export the file again."
+            )
         component = indices.get("componentType")
         if component not in (5121, 5123, 5125):
             raise self.fail(f"{where}: sparse indices of component type {component!r}; export the file again.")
@@ -109,7 +132,7 @@ class GltfFile:
         self, index: object, start: int, count: int, width: int, dtype: np.dtype[Any], where: str
     ) -> NDArray[Any]:
         view = self.item("bufferViews", index)
-        if "EXT_meshopt_compression" in view.get("extensions", {}):
+        if "EXT_meshopt_compression" in self.part(view, "extensions"):
             raise self.fail("it is compressed with meshopt, which we cannot read; export it without compression.")
         offset, length = self._whole(view, "byteOffset", 0), self._whole(view, "byteLength")
         size = width * dtype.itemsize
@@ -118,9 +141,13 @@ class GltfFile:
             raise self.fail(f"bufferView {index}: stride {stride} is below an element's {size} bytes.")
         buffer = self._buffer(view.get("buffer"))
         if offset + length > len(buffer):
-            raise self.fail(f"bufferView {index} ends at byte {offset + length:,} of a buffer of {len(buffer):,} bytes.")
+            raise self.fail(
+                f"bufferView {index} ends at byte {offset + length:,} of a buffer of {len(buffer):,} bytes."
+            )
         if count and start + stride * (count - 1) + size > length:
-            raise self.fail(f"{where} reaches past the end of bufferView {index}; the file is damaged, export it again.")
+            raise self.fail(
+                f"{where} reaches past the end of bufferView {index}; the file is damaged, export it again."
+            )
         little = dtype.newbyteorder("<")
         rows: NDArray[Any] = np.ndarray(
             (count, width), little, buffer, offset + start if count else 0, (stride, dtype.itemsize)
@@ -198,7 +225,9 @@ class GltfFile:
         if not str(version).startswith("2."):
             raise self.fail(f"it is glTF version {version}; export it as glTF 2.0.")
         required = self.json.get("extensionsRequired", [])
-        missing = sorted(str(name) for name in required if name not in KNOWN_EXTENSIONS)
+        if not isinstance(required, list):
+            raise self.fail("“extensionsRequired” is not a list; export the file again.")
+        missing = sorted({str(name) for name in required} - KNOWN_EXTENSIONS)
         if missing:
             raise self.fail(f"it needs {', '.join(missing)}, which we cannot read; export it without.")
 
@@ -213,7 +242,9 @@ def _read(path: Path, name: str) -> bytes:
     try:
         size = path.stat().st_size
         if size > MAX_FILE:
-            raise UserError(f"{name}: {size / 2**20:,.0f} MB is more than we read (512 MB); reduce the mesh or its textures.")
+            raise UserError(
+                f"{name}: {size / 2**20:,.0f} MB is more than we read (512 MB); reduce the mesh or its textures."
+            )
         return path.read_bytes()
     except OSError as error:
         raise UserError(f"{name}: cannot be read ({error.strerror}); check the path.") from None

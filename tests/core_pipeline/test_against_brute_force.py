@@ -31,13 +31,13 @@ def compare(schedule, curve_set, settings, tolerance: float) -> None:
                     assert min(heights) - tolerance <= made <= max(heights) + tolerance, (colour, pose, at)
 
 
-@examples(max_examples=120)
+@examples(max_examples=500)
 @given(schedules(), curve_sets(), settings())
 def test_the_pipeline_equals_the_slow_reading(schedule, curve_set, settings):
     compare(schedule, curve_set, settings, 1e-6)
 
 
-@examples(max_examples=60)
+@examples(max_examples=200)
 @given(schedules(most=12), curve_sets(at_rest=True), settings())
 def test_longer_utterances(schedule, curve_set, settings):
     compare(schedule, curve_set, settings, 1e-6)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from hypothesis import given
+from hypothesis import settings as examples
 from hypothesis import strategies as st
 
 from core_pipeline.pipeline import run
@@ -60,7 +61,7 @@ def test_no_two_points_are_further_apart_than_the_limit_allows(schedule, curve_s
         dt = np.abs(track.t[:, None] - track.t)
         assert (np.abs(track.v[:, None] - track.v) <= speed * dt + rounding).all()
         t = np.concatenate((track.t, cyan[pose].t))
-        assert (track.at(t) <= cyan[pose].at(t) + 1e-9 + 1e-6 * (speed > 1e3)).all()
+        assert (track.at(t) <= cyan[pose].at(t) + 1e-6).all()
         assert track.v.min() >= 0
         assert track.v.max() <= 1
 
@@ -83,18 +84,20 @@ def test_it_is_the_lowest_cone_everywhere(schedule, curve_set, settings):
         assert stages.magenta[pose].at(t) == pytest.approx(np.array(lowest), abs=1e-7)
 
 
+@examples(max_examples=40)
 @given(schedules(most=3), curve_sets(), st.sampled_from([1.0, 6.0, 15.0]))
 def test_it_equals_a_grid_of_a_tenth_of_a_millisecond(schedule, curve_set, speed):
     cyan = run(schedule, curve_set).cyan
     made = limit_speed(cyan, speed)
-    grid = np.linspace(schedule.start, schedule.end, int(schedule.duration * 1e4) + 1)
+    grid = np.linspace(schedule.start, schedule.end, int(schedule.duration * 1e4) + 2)
+    step = schedule.duration / (grid.size - 1)
     for pose in curve_set.poses:
         slow = cyan[pose].at(grid)
         for k in range(1, grid.size):  # one step after the other, there and back
-            slow[k] = min(slow[k], slow[k - 1] + speed * 1e-4)
+            slow[k] = min(slow[k], slow[k - 1] + speed * step)
         for k in range(grid.size - 2, -1, -1):
-            slow[k] = min(slow[k], slow[k + 1] + speed * 1e-4)
-        assert np.abs(made[pose].at(grid) - slow).max() <= 1e-4 * speed + 1e-6
+            slow[k] = min(slow[k], slow[k + 1] + speed * step)
+        assert np.abs(made[pose].at(grid) - slow).max() <= step * speed + 1e-6
 
 
 def test_a_long_utterance_loses_no_digits():

@@ -54,7 +54,9 @@ class Gltf:
         self.json["accessors"].append({"componentType": 5126, "count": count, "type": "VEC3", "sparse": sparse})
         return len(self.json["accessors"]) - 1
 
-    def add_mesh(self, points: np.ndarray, indices: list[int], shapes: dict[str, np.ndarray], name: str = "tetra") -> None:
+    def add_mesh(
+        self, points: np.ndarray, indices: list[int], shapes: dict[str, np.ndarray], name: str = "tetra"
+    ) -> None:
         primitive = {
             "attributes": {"POSITION": self.accessor(points)},
             "indices": self.accessor(np.array(indices, np.uint16)[:, None]),
@@ -79,7 +81,13 @@ class Gltf:
         text = json.dumps(self.json).encode()
         text += b" " * (-len(text) % 4)
         head = struct.pack("<4sII", b"glTF", 2, 12 + 8 + len(text) + 8 + len(self.data))
-        return head + struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(self.data), b"BIN\0") + self.data
+        return (
+            head
+            + struct.pack("<I4s", len(text), b"JSON")
+            + text
+            + struct.pack("<I4s", len(self.data), b"BIN\0")
+            + self.data
+        )
 
 
 def tetrahedron() -> Gltf:

@@ -6,6 +6,8 @@
 
 from __future__ import annotations
 
+from random import Random
+
 import numpy as np
 from hypothesis import strategies as st
 
@@ -19,34 +21,43 @@ from core_pipeline.tracks import Track, Tracks
 POSES = ("a", "b", "c")
 PHONES = ("x", "y")
 
-_TIMES = st.one_of(st.sampled_from([0, 250, 500, 1000]), st.integers(0, 1000)).map(lambda k: k / 1000)
-_WEIGHTS = st.one_of(st.sampled_from([0, 50, 100]), st.integers(0, 100)).map(lambda k: k / 100)
-_NASTY_TIMES = st.builds(lambda t, d: min(max(t + d, 0.0), 1.0), _TIMES, st.sampled_from([0, 1e-6, -1e-6, 1e-9, 1e-15]))
-_NASTY_WEIGHTS = st.one_of(_WEIGHTS, st.sampled_from([1e-12, 1e-9, 1e-6, 1 - 1e-9]))
-_DURATIONS = st.one_of(st.sampled_from([0.005, 0.05, 0.1, 0.5]), st.integers(5, 300).map(lambda k: k / 1000))
-_NASTY_DURATIONS = st.one_of(_DURATIONS, st.sampled_from([1.1e-5, 1e-4, 1e-3]))
+
+def _curve(r: Random, nasty: bool, at_rest: bool) -> Curve:
+    times: list[float] = []
+    while len(times) < r.choice([1, 2, 3, 3, 4, 5]):
+        t = r.choice([0, 250, 500, 1000, r.randint(0, 1000), r.randint(0, 1000)]) / 1000
+        times.append(t)
+        if nasty and r.random() < 0.3:
+            times.append(min(max(t + r.choice([1e-6, -1e-6, 1e-9, 1e-15]), 0.0), 1.0))
+    times = sorted(set(times))
+    weights = [r.choice([0.0, 0.5, 1.0, r.randint(0, 100) / 100, r.randint(0, 100) / 100]) for _ in times]
+    if nasty:
+        weights = [r.choice([1e-12, 1e-9, 1e-6, 1 - 1e-9]) if r.random() < 0.15 else v for v in weights]
+    if at_rest or r.random() < 0.5:
+        weights[0] = weights[-1] = 0.0
+    return Curve(np.array(times), np.array(weights))
+
+
+def _seeds() -> st.SearchStrategy[Random]:
+    # Sets drawn key by key come out nearly empty, and then no two poses ever meet; a seed gives the full breadth.
+    return st.integers(0, 2**32 - 1).map(Random)
 
 
 @st.composite
 def curves(draw: st.DrawFn, *, nasty: bool = False, at_rest: bool = False) -> Curve:
-    """One to five keys; a plateau, a single key, all zeros, steep: whatever comes. `at_rest` begins and ends at 0."""
-    times, weights = (_NASTY_TIMES, _NASTY_WEIGHTS) if nasty else (_TIMES, _WEIGHTS)
-    keys = draw(st.lists(st.tuples(times, weights), min_size=1, max_size=5, unique_by=lambda key: key[0]))
-    keys.sort()
-    if at_rest or draw(st.booleans()):
-        keys[0], keys[-1] = (keys[0][0], 0.0), (keys[-1][0], 0.0)
-    return Curve.of(keys)
+    """One to ten keys; a plateau, a single key, all zeros, steep: whatever comes. `at_rest` begins and ends at 0."""
+    return _curve(draw(_seeds()), nasty, at_rest)
 
 
 @st.composite
 def curve_sets(draw: st.DrawFn, *, nasty: bool = False, at_rest: bool = False) -> CurveSet:
     """Two phonemes, three poses; every curve and every bigram may be missing."""
-    curve = curves(nasty=nasty, at_rest=at_rest)
+    r = draw(_seeds())
     pairs = [(p, q) for p in PHONES for q in PHONES] + [("sil", "x"), ("y", "sil")]
     bigrams = {
-        pair: Bigram(draw(st.dictionaries(st.sampled_from(POSES), curve, max_size=3)))
+        pair: Bigram({pose: _curve(r, nasty, at_rest) for pose in POSES if r.random() < 0.85})
         for pair in pairs
-        if draw(st.integers(0, 5))
+        if r.random() < 0.9
     }
     return CurveSet(phonemes=PHONES, poses=POSES, bigrams=bigrams, phoneme_map={})
 
@@ -54,28 +65,30 @@ def curve_sets(draw: st.DrawFn, *, nasty: bool = False, at_rest: bool = False) -
 @st.composite
 def schedules(draw: st.DrawFn, *, nasty: bool = False, most: int = 7) -> Schedule:
     """None to a few phones, with `sil` and unknown ones, anywhere in time."""
-    phone = st.sampled_from([*PHONES, *PHONES, "sil", "?"])
-    length = _NASTY_DURATIONS if nasty else _DURATIONS
-    phones = draw(st.lists(st.tuples(phone, length), max_size=most))
-    times = [draw(st.sampled_from([0.0, -2.5, 100.0]))]
-    for _, seconds in phones:
-        times.append(times[-1] + seconds)
-    return Schedule([p for p, _ in phones], times)
+    r = draw(_seeds())
+    count = r.choice([0, 1, *range(2, most + 1), *range(2, most + 1)])
+    phones = [r.choice(["sil", "?"]) if r.random() < 0.15 else r.choice(PHONES) for _ in range(count)]
+    lengths = [0.005, 0.05, 0.1, 0.1, 0.5, *([1.1e-5, 1e-4, 1e-3] if nasty else [])]
+    times = [r.choice([0.0, -2.5, 100.0])]
+    for _ in phones:
+        times.append(times[-1] + r.choice([*lengths, r.uniform(0.005, 0.3), r.uniform(0.005, 0.3)]))
+    return Schedule(phones, times)
 
 
 @st.composite
 def settings(draw: st.DrawFn) -> Settings:
     """Windows from 0 to 1 s, limits from 0 to 2, slow and fast, any priorities."""
+    r = draw(_seeds())
     pairs = [("a", "b"), ("b", "c"), ("c", "a")]
-    limit = st.sampled_from([0.0, 0.3, 0.5, 1.0, 1.3, 2.0])
-    window = st.sampled_from([0.0, 0.05, 0.1, 0.18, 1.0])
+    limits = [0.0, 0.3, 0.5, 0.5, 1.0, 1.3, 2.0]
+    windows = [0.0, 0.05, 0.1, 0.18, 1.0]
     return Settings(
-        window=draw(window),
-        windows=draw(st.dictionaries(st.sampled_from(POSES), window, max_size=1)),
-        constraints=tuple(Constraint(p, q, draw(limit)) for p, q in pairs if draw(st.booleans())),
-        priorities=tuple(draw(st.permutations(POSES)))[: draw(st.integers(0, 3))],
-        speed_limit=draw(st.sampled_from([0.01, 1.0, 6.0, 15.0, 50.0, 1e3])),
-        spline=draw(st.sampled_from(SPLINES)),
+        window=r.choice(windows),
+        windows={r.choice(POSES): r.choice(windows)} if r.random() < 0.5 else {},
+        constraints=tuple(Constraint(p, q, r.choice(limits)) for p, q in pairs if r.random() < 0.8),
+        priorities=tuple(r.sample(POSES, r.choice([0, 2, 3, 3, 3, 3]))),
+        speed_limit=r.choice([0.01, 1.0, 6.0, 15.0, 15.0, 50.0, 1e3]),
+        spline=r.choice(SPLINES),
     )
 
 

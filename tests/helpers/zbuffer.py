@@ -28,7 +28,7 @@ def seen(
     pitch: float = 0.0,
     half: float = HALF,
 ) -> Counter[str]:
-    """Pixels of each part in a square window of half width `half` round `centre` (parallel projection, SIZE² pixels)."""
+    """Pixels of each part in a square window of half width `half` round `centre` (SIZE² pixels)."""
     faces = visible_triangles(face, weights, centre, yaw, pitch, half)
     names = np.full(len(face.triangles), "", dtype=object)
     for name, (first, count) in face.parts.items():

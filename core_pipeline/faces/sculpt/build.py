@@ -77,7 +77,9 @@ def _delta(made: list[Piece], shape: str) -> np.ndarray[tuple[int, ...], np.dtyp
     return np.concatenate([piece.poses.get(shape, piece.positions) - piece.positions for piece in made])
 
 
-def _triangles_and_parts(made: list[Piece]) -> tuple[np.ndarray[tuple[int, ...], np.dtype[np.uint32]], Mapping[str, tuple[int, int]]]:
+def _triangles_and_parts(
+    made: list[Piece],
+) -> tuple[np.ndarray[tuple[int, ...], np.dtype[np.uint32]], Mapping[str, tuple[int, int]]]:
     triangles, parts = [], {}
     vertices = faces = 0
     for piece in made:

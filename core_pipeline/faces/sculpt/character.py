@@ -208,7 +208,7 @@ class Character:
     ears: Ears = Ears()
     body: Body = Body()
     palette: Palette = Palette()
-    camera: Camera = Camera()
+    camera: Camera = field(default_factory=Camera)
     middle: Point = (0.0, -0.12, 0.05)
     nose: Point = (0.0, -0.10, 0.97)
     lip_columns: int = 80

@@ -41,9 +41,11 @@ def _cap(character: Character, angles: Array, radius: float, around: int = AROUN
 
 
 def _eyeball(character: Character) -> Piece:
-    eyes, palette = character.eyes, character.palette
+    eyes = character.eyes
     iris, pupil = eyes.iris, eyes.pupil
-    angles = np.array([125, 100, 78, 60, 45, iris + 0.8, iris, iris - 3.5, (iris + pupil) / 2, pupil + 0.5, pupil, 0.6 * pupil])
+    angles = np.array(
+        [125, 100, 78, 60, 45, iris + 0.8, iris, iris - 3.5, (iris + pupil) / 2, pupil + 0.5, pupil, 0.6 * pupil]
+    )
     white, colour = linear((0.97, 0.97, 0.96)), linear(eyes.iris_colour)
     black = linear((0.03, 0.02, 0.03))
     tints = [white * 0.45, white * 0.6, white * 0.85, white, white, white, colour * 0.25, colour * 0.8, colour * 1.15]
@@ -69,8 +71,22 @@ def _glint(character: Character) -> Piece:
     axes = _axes(character)
     local = (flat - np.array(eyes.centre)) @ axes.T
     a, b = np.radians(up), np.radians(side)
-    raised = np.stack([local[:, 0], local[:, 1] * np.cos(a) + local[:, 2] * np.sin(a), local[:, 2] * np.cos(a) - local[:, 1] * np.sin(a)], -1)
-    moved = np.stack([raised[:, 0] * np.cos(b) + raised[:, 2] * np.sin(b), raised[:, 1], raised[:, 2] * np.cos(b) - raised[:, 0] * np.sin(b)], -1)
+    raised = np.stack(
+        [
+            local[:, 0],
+            local[:, 1] * np.cos(a) + local[:, 2] * np.sin(a),
+            local[:, 2] * np.cos(a) - local[:, 1] * np.sin(a),
+        ],
+        -1,
+    )
+    moved = np.stack(
+        [
+            raised[:, 0] * np.cos(b) + raised[:, 2] * np.sin(b),
+            raised[:, 1],
+            raised[:, 2] * np.cos(b) - raised[:, 0] * np.sin(b),
+        ],
+        -1,
+    )
     points = np.array(eyes.centre) + moved @ axes
     triangles = np.concatenate([grid(2, 12, closed=True), fan(12 + np.arange(12), 24)])
     return Piece("glint_right", points, triangles, paint(len(points), (1.0, 1.0, 1.0), 0.0))

@@ -44,5 +44,7 @@ def _laplacian(positions: Array, triangles: NDArray[np.int64]) -> tuple[csc_arra
         weights += [cotangent, cotangent]
         np.add.at(mass, a, double_area / 6)
     size = (len(positions), len(positions))
-    adjacency = coo_array((np.concatenate(weights), (np.concatenate(rows), np.concatenate(columns))), shape=size).tocsc()
+    adjacency = coo_array(
+        (np.concatenate(weights), (np.concatenate(rows), np.concatenate(columns))), shape=size
+    ).tocsc()
     return csc_array(diags_array(np.asarray(adjacency.sum(axis=1)).ravel()) - adjacency), mass

@@ -35,7 +35,7 @@ class Scalp:
 def hair(character: Character, clay: Solid) -> Piece:
     """The whole of the hair; it stays still in every pose."""
     scalp = Scalp(character, clay)
-    parts = [_cap(character, scalp), *(_lock(lock, character, scalp) for lock in character.hair.locks)]
+    parts = [_cap(character, scalp), *(_lock(lock, scalp) for lock in character.hair.locks)]
     triangles, first = [], 0
     for points, part_triangles, _ in parts:
         triangles.append(part_triangles + first)
@@ -79,7 +79,7 @@ def _cap(character: Character, scalp: Scalp) -> tuple[Array, Triangles, Array]:
     return flat, triangles, np.append(np.clip(light, 0, 1).ravel(), 0.5)
 
 
-def _lock(lock: Lock, character: Character, scalp: Scalp) -> tuple[Array, Triangles, Array]:
+def _lock(lock: Lock, scalp: Scalp) -> tuple[Array, Triangles, Array]:
     """A tapered strand along a smooth path over the head."""
     known = np.array(lock.path)
     knots = np.linspace(0, 1, len(known))

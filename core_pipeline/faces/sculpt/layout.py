@@ -1,4 +1,4 @@
-"""Where the skin's vertices lie, as a flat map round the mouth: finer near lips, eyes and nose, the same left and right.
+"""Where the skin's vertices lie, as a flat map round the mouth: finer near lips, eyes and nose, left like right.
 
 The map is azimuthal: the distance from its origin is the angle at the head's middle away from the mouth, in radians.
 """
@@ -34,7 +34,7 @@ class Layout:
 
 
 def lay_out(border: Array, eye_rings: list[Array], spacing: Callable[[Array], Array]) -> Layout:
-    """border (k, 2) anticlockwise from the bottom of the mouth, k a multiple of 4; the first eye ring is the lid's edge.
+    """border (k, 2) anticlockwise from the bottom of the mouth, k a multiple of 4; the first eye ring is the hole.
 
     spacing  points (p, 2) → wished distance between vertices there (p,)
     """
@@ -66,7 +66,9 @@ def _check_loops(triangles: Indices, *paths: Indices) -> None:
         steps = np.sort(np.stack([path[:-1], path[1:]], -1), axis=1)
         missing = sum((int(a), int(b)) not in edges for a, b in steps)
         if missing:
-            raise ValueError(f"{missing} steps of a loop are no edges of the skin: space the rings round it more widely")
+            raise ValueError(
+                f"{missing} steps of a loop are no edges of the skin: space the rings round it more widely"
+            )
 
 
 def _lip_rings(half: Array) -> list[Array]:
@@ -114,7 +116,9 @@ def _scatter(fixed: Array, lips: Array, loop: Array, spacing: Callable[[Array], 
 
 
 def _neighbour_mean(points: Array, triangles: NDArray[Any]) -> Array:
-    edges = np.unique(np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), 1), axis=0)
+    edges = np.unique(
+        np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), 1), axis=0
+    )
     total = np.zeros_like(points)
     number = np.zeros(len(points))
     for a, b in (edges.T, edges.T[::-1]):

@@ -1,7 +1,7 @@
 """Lips: one section profile swept round the mouth, and the bag of skin behind it.
 
 Upper and lower lip share the line where they meet, so that a mouth that is shut is shut by construction.
-A column of vertices is one section; column 0 is the middle of the lower lip, columns go anticlockwise seen from the front.
+A column of vertices is one section. Column 0 is the middle of the lower lip; they go anticlockwise seen from the front.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ class Lips:
         """How far in front of the meeting line the face lies at each vertex, (RINGS, columns)."""
         reach = np.clip(PROFILE[:, 0], 0, None)[:, None] * self.thickness
         x, y = (self.meeting[:, i] + reach * self.along[:, i] for i in (0, 1))
-        visible = smoothstep(3, 7, np.arange(RINGS))[:, None]
+        visible = smoothstep(3, 7, np.arange(RINGS, dtype=float))[:, None]
         sag: Array = (self._clay.front(x, y) - self.meeting[:, 2]) * visible
         return sag
 

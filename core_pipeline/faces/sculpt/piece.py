@@ -65,8 +65,10 @@ def turn(points: Array, pivot: Point | Array, degrees: float | Array) -> Array:
     return turned
 
 
-def tube(path: Array, across: Array, along_normal: Array, wide: Array, high: Array, sides: int) -> tuple[Array, Triangles]:
-    """An elliptic tube: path (r, 3), unit directions (r, 3) each, half sizes (r,). Rows × sides points, closed round."""
+def tube(
+    path: Array, across: Array, along_normal: Array, wide: Array, high: Array, sides: int
+) -> tuple[Array, Triangles]:
+    """An elliptic tube: path (r, 3), unit directions (r, 3) each, half sizes (r,). Closed round, open ended."""
     angle = 2 * np.pi * np.arange(sides) / sides
     ring = across[:, None] * (wide[:, None] * np.cos(angle))[..., None]
     ring = ring + along_normal[:, None] * (high[:, None] * np.sin(angle))[..., None]

@@ -97,7 +97,9 @@ def _ellipsoid(points: Array, blob: Blob) -> Array:
     local = points - np.array(blob.centre)
     if blob.tilt:
         c, s = np.cos(np.radians(blob.tilt)), np.sin(np.radians(blob.tilt))
-        local = np.stack([local[..., 0] * c + local[..., 1] * s, local[..., 1] * c - local[..., 0] * s, local[..., 2]], -1)
+        local = np.stack(
+            [local[..., 0] * c + local[..., 1] * s, local[..., 1] * c - local[..., 0] * s, local[..., 2]], -1
+        )
     radii = np.array(blob.radii)
     scaled = local / radii
     size = np.linalg.norm(scaled, axis=-1)

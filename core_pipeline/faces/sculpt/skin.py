@@ -12,7 +12,7 @@ from core_pipeline.faces.sculpt.mouth import BAG_RINGS, PROFILE, RINGS, Lips
 from core_pipeline.faces.sculpt.piece import Piece, Triangles, fan, grid, linear, turn
 from core_pipeline.faces.sculpt.sdf import Array, Solid, smoothstep
 
-# sizes of the almonds round the eye: those of the flat map, and (radius, size) of the lid's band inside the first of them
+# sizes of the almonds round the eye: on the flat map; and (radius, size) of the lid's band inside the first of them
 EYE_RINGS = (1.14, 1.24, 1.36, 1.52, 1.74)
 BAND = ((LID, 1.065), (LID, 1.0), (1.035, 0.985), (0.94, 0.99))
 EDGE = 1  # the row of the band that is the lid's edge
@@ -94,9 +94,10 @@ class Skin:
         share = smoothstep(1.5, EYE_RINGS[0], self._ratio)[:, None]
         points = points + share * (ball - points)
         # the crease between lid and face is softer than the clay's
-        loose = ((self._ratio > EYE_RINGS[0] + 0.01) & (self._ratio < 1.8) & (np.abs(points[:, 0]) > 0.07))[:, None]
-        for _ in range(10):
-            points = np.where(loose, (points + self.layout.neighbour_mean(points)) / 2, points)
+        loose = (self._ratio > EYE_RINGS[0] + 0.01) & (self._ratio < 1.8)
+        pull = (0.5 * loose * (0.25 + 0.75 * smoothstep(0.0, 0.14, np.abs(points[:, 0]))))[:, None]
+        for _ in range(12):
+            points = points + pull * (self.layout.neighbour_mean(points) - points)
         return points
 
     def _smoothed(self, values: Array) -> Array:
@@ -171,7 +172,9 @@ class Skin:
         nose = np.linalg.norm(points - np.array(self.character.nose), axis=1) < 0.15
         still = nose | (self._ratio < 1.5)
         self._move = SmoothField(points, self.layout.triangles, on_border | still | (away > 0.60))
-        share = smoothstep(mouth.height + 0.32, mouth.height - 0.34, points[:, 1]) * smoothstep(-0.55, 0.30, points[:, 2])
+        share = smoothstep(mouth.height + 0.32, mouth.height - 0.34, points[:, 1]) * smoothstep(
+            -0.55, 0.30, points[:, 2]
+        )
         share[self.layout.border] = self.lips.jaw_share
         jaw = SmoothField(points, self.layout.triangles, on_border | still | (away > 0.40))
         self._jaw = np.clip(jaw.spread(np.where(still, 0, share)[:, None]), 0, 1)
@@ -184,7 +187,9 @@ class Skin:
         if pose.cheeks:
             x, y, z = self.face.T
             bump = np.exp(-(((np.abs(x) - 0.50) / 0.20) ** 2) - ((y + 0.24) / 0.17) ** 2) * smoothstep(0.1, 0.4, z)
-            face = face + (pose.cheeks * bump * smoothstep(1.0, 1.6, self._ratio))[:, None] * (np.sign(x)[:, None] * (0.5, 0, 0) + (0, 0.6, 0.5))
+            face = face + (pose.cheeks * bump * smoothstep(1.0, 1.6, self._ratio))[:, None] * (
+                np.sign(x)[:, None] * (0.5, 0, 0) + (0, 0.6, 0.5)
+            )
         face = face + self._jaw * (turn(face, self.character.mouth.hinge, pose.jaw) - face)
         return self._whole(*self.lips.posed(pose), face, closed=False)
 
@@ -201,7 +206,10 @@ class Skin:
             sizes = [max(size, 1.0) for _, size in BAND]
             fronts = [self.lid.edge(angle, size=size) for size in sizes]
             shares = [self.lid.share(np.full(COLUMNS, size)) for size in sizes]
-            rows = [row + self.lid.close(front, share) - front for row, front, share in zip(rows, fronts, shares, strict=True)]
+            rows = [
+                row + self.lid.close(front, share) - front
+                for row, front, share in zip(rows, fronts, shares, strict=True)
+            ]
         right = np.concatenate(rows)
         return [right, right * (-1, 1, 1)]
 
@@ -219,7 +227,9 @@ class Skin:
         height = y - eyes.centre[1]
         share = np.exp(-(((np.abs(x) - eyes.centre[0]) / 0.36) ** 2) - ((height - 0.46) / 0.20) ** 2)
         share *= smoothstep(1.0, 1.5, self._ratio)
-        return self.clay.project(face + (0, self.character.brows.lift, 0) * share[:, None]) * share[:, None] + face * (1 - share[:, None])
+        lifted = self.clay.project(face + (0, self.character.brows.lift, 0) * share[:, None])
+        raised: Array = face + share[:, None] * (lifted - face)
+        return raised
 
     def _colours(self, rest: Array) -> Array:
         palette, columns = self.character.palette, self.character.lip_columns

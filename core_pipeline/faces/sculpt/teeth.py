@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from core_pipeline.faces.sculpt.character import Character, MouthPose
-from core_pipeline.faces.sculpt.piece import Piece, grid, linear, turn
+from core_pipeline.faces.sculpt.piece import Piece, Triangles, grid, linear, turn
 from core_pipeline.faces.sculpt.sdf import Array, smoothstep
 
 PER_TOOTH = 4
@@ -32,9 +34,11 @@ class _Row:
     def __init__(self, character: Character, centre: Array, *, upper: bool) -> None:
         self.character, self.centre, self.upper = character, centre, upper
         size = character.teeth
-        widths = np.array([1.25 if upper else 0.8, 1.0 if upper else 0.85, 0.95, 1.0, 1.0, 1.3, 1.3, 1.3][: size.per_side])
+        widths = np.array(
+            [1.25 if upper else 0.8, 1.0 if upper else 0.85, 0.95, 1.0, 1.0, 1.3, 1.3, 1.3][: size.per_side]
+        )
         ends = np.concatenate([[0], np.cumsum(widths)]) / widths.sum()
-        fine = np.concatenate([np.linspace(a, b, PER_TOOTH)[:-1] for a, b in zip(ends[:-1], ends[1:], strict=True)])
+        fine = np.concatenate([np.linspace(a, b, PER_TOOTH)[:-1] for a, b in pairwise(ends)])
         half = np.append(fine, 1.0)
         self.along = np.concatenate([-half[::-1], half[1:]])
         inside = np.searchsorted(ends, np.abs(self.along).clip(0, 1 - 1e-9), side="right") - 1
@@ -46,7 +50,11 @@ class _Row:
         size = self.character.teeth
         fine = np.linspace(-2.0, 2.0, 400)
         x = size.half_width * (1 - 0.0 if self.upper else 0.94) * np.sin(np.clip(fine, -np.pi / 2, np.pi / 2))
-        z = np.where(np.abs(fine) < np.pi / 2, np.cos(fine) - 1, -1 - 0.8 * (np.abs(fine) - np.pi / 2)) * size.depth * 0.72
+        z = (
+            np.where(np.abs(fine) < np.pi / 2, np.cos(fine) - 1, -1 - 0.8 * (np.abs(fine) - np.pi / 2))
+            * size.depth
+            * 0.72
+        )
         length = np.concatenate([[0], np.cumsum(np.hypot(np.diff(x), np.diff(z)))])
         share = (self.along + 1) / 2 * length[-1]
         x, z = np.interp(share, length, x), np.interp(share, length, z)
@@ -54,12 +62,16 @@ class _Row:
         out = np.stack([-dz, dx], -1)
         return np.stack([x, z], -1), out / np.linalg.norm(out, axis=1, keepdims=True)
 
-    def sweep(self, section: Array, *, is_tooth: bool) -> tuple[Array, Array]:
+    def sweep(self, section: Array, *, is_tooth: bool) -> tuple[Array, Triangles]:
         size = self.character.teeth
         arch, out = self._arch()
         height = size.upper_height if self.upper else size.lower_height
         # a gap is a groove on the lip side and a notch in the edge; teeth get lower towards the back
-        gap = smoothstep(0.72, 1.0, self.from_middle)[:, None] if is_tooth else 0.6 * smoothstep(0.3, 1.0, self.from_middle)[:, None]
+        gap = (
+            smoothstep(0.72, 1.0, self.from_middle)[:, None]
+            if is_tooth
+            else 0.6 * smoothstep(0.3, 1.0, self.from_middle)[:, None]
+        )
         lower_back = 1 - 0.30 * np.abs(self.along[:, None]) ** 1.5
         across = section[:, 0] * size.thickness
         down = section[:, 1]

@@ -57,15 +57,32 @@ POSES = {
         lower_teeth=(-0.04, -0.13),
     ),
     "wide": MouthPose(
-        width=0.21, raise_upper=0.05, drop_lower=0.035, corners=0.045, forward=-0.02, thick=-0.10, cheeks=0.05, flat=0.7,
+        width=0.21, raise_upper=0.05, drop_lower=0.035, corners=0.045, forward=-0.02, thick=-0.10, cheeks=0.05,
+        flat=0.7,
     ),
-    "tBack": MouthPose(tongue=TongueBend(((-0.30, -0.70), (0.20, -0.70), (0.02, -0.42), (-0.10, -0.36)))),
-    "tRoof": MouthPose(tongue=TongueBend(((-0.30, -0.66), (-0.02, -0.60), (-0.06, -0.34), (0.15, -0.20)), 0.75)),
-    "tTeeth": MouthPose(tongue=TongueBend(((-0.28, -0.66), (0.06, -0.50), (0.03, -0.24), (0.012, -0.012)), 0.9)),
+    "tBack": MouthPose(flat=0.6, tongue=TongueBend(((-0.30, -0.70), (0.20, -0.70), (0.02, -0.42), (-0.10, -0.36)))),
+    "tRoof": MouthPose(
+        flat=0.6, tongue=TongueBend(((-0.30, -0.66), (-0.02, -0.60), (-0.06, -0.34), (0.15, -0.20)), 0.75)
+    ),
+    "tTeeth": MouthPose(
+        flat=0.9, tongue=TongueBend(((-0.28, -0.66), (0.06, -0.50), (0.03, -0.24), (0.012, -0.012)), 0.9)
+    ),
 }  # fmt: skip
 
 HAIR = Hair(
-    hairline=((0, 77), (25, 76), (48, 80), (62, 92), (72, 108), (80, 110), (90, 88), (104, 86), (116, 108), (140, 118), (180, 118)),
+    hairline=(
+        (0, 77),
+        (25, 76),
+        (48, 80),
+        (62, 92),
+        (72, 108),
+        (80, 110),
+        (90, 88),
+        (104, 86),
+        (116, 108),
+        (140, 118),
+        (180, 118),
+    ),
     front=0.13,
     top=0.14,
     quiff=0.10,

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from core_pipeline.faces.sculpt.character import Character
-from core_pipeline.faces.sculpt.piece import Piece, grid, linear, mirror, paint, tube
+from core_pipeline.faces.sculpt.piece import Piece, Triangles, grid, linear, mirror, paint, tube
 from core_pipeline.faces.sculpt.sdf import Array, Solid, smoothstep
 
 BROW_ROWS = 14
@@ -23,7 +23,7 @@ def brows(character: Character, clay: Solid) -> list[Piece]:
     return [right, mirror(right, "brow_left")]
 
 
-def _brow(character: Character, clay: Solid, lift: float) -> tuple[Array, Array]:
+def _brow(character: Character, clay: Solid, lift: float) -> tuple[Array, Triangles]:
     known = np.array(character.brows.line)
     knots = np.linspace(0, 1, len(known))
     u = (1 - np.cos(np.pi * np.linspace(0, 1, BROW_ROWS))) / 2
@@ -91,13 +91,17 @@ def body(character: Character) -> list[Piece]:
     free = 0.42 + 0.58 * smoothstep(-0.72, -1.25, np.repeat(heights, NECK_AROUND))
     colours[:, :3] *= free[:, None] ** np.array([0.8, 1.1, 1.2])
     trunk = np.array([(0.06, 1.06), (0.10, 1.14), (0.09, 1.25), (0.03, 1.33), (-0.04, 1.34), (-0.09, 1.30)])
-    slope = np.array([(0.02, 1.22), (-0.06, 1.36), (-0.13, 1.75), (-0.22, 2.20), (-0.36, 2.60), (-0.60, 2.85), (-0.95, 2.95)])
+    slope = np.array(
+        [(0.02, 1.22), (-0.06, 1.36), (-0.13, 1.75), (-0.22, 2.20), (-0.36, 2.60), (-0.60, 2.85), (-0.95, 2.95)]
+    )
     collar = _lathe(turn, shape.collar + trunk[::-1, 0], shape.neck * trunk[::-1, 1], 1.0, shape.middle)
     shirt = _lathe(turn, shape.collar + slope[::-1, 0], shape.neck * slope[::-1, 1], 0.72, shape.middle)
     pieces = [Piece("neck", neck, grid(len(heights), NECK_AROUND, closed=True), colours)]
     trim = paint(len(collar), palette.shirt_trim, 0.15)
     pieces.append(Piece("collar", collar, grid(len(trunk), NECK_AROUND, closed=True), trim))
-    pieces.append(Piece("shirt", shirt, grid(len(slope), NECK_AROUND, closed=True), paint(len(shirt), palette.shirt, 0.12)))
+    pieces.append(
+        Piece("shirt", shirt, grid(len(slope), NECK_AROUND, closed=True), paint(len(shirt), palette.shirt, 0.12))
+    )
     return pieces
 
 

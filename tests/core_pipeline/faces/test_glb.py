@@ -34,6 +34,16 @@ def refuse(tmp_path, gltf, name="face.glb"):
     return sentence
 
 
+def read_or_refuse(path):
+    """The face, or None after a sentence about this file; anything else that is raised comes through."""
+    try:
+        return read_glb(path)
+    except UserError as error:
+        if not str(error).startswith(path.name):
+            raise
+        return None
+
+
 # --- what is written comes back
 
 
@@ -55,15 +65,17 @@ def test_writing_is_deterministic_and_says_where_it_cannot(tmp_path):
 
 
 def test_normal_deltas_are_those_of_the_full_pose(tmp_path):
-    back = read(tmp_path, glb_bytes(BALL))
-    moved = back.positions + back.deltas[0]
-    a, b, c = (moved[back.triangles[:, i]].astype(float) for i in range(3))
-    summed = np.zeros((len(moved), 3))
-    for corner in range(3):
-        np.add.at(summed, back.triangles[:, corner], np.cross(b - a, c - a))
-    exact = summed / np.maximum(np.linalg.norm(summed, axis=1, keepdims=True), 1e-12)
-    inner = np.linalg.norm(summed, axis=1) > 1e-9
-    np.testing.assert_allclose((back.normals + back.normal_deltas[0])[inner], exact[inner], atol=2e-2)
+    back = read(tmp_path, tetrahedron())
+
+    def exact(points):
+        a, b, c = (points[back.triangles[:, i]].astype(float) for i in range(3))
+        summed = np.zeros((len(points), 3))
+        for corner in range(3):
+            np.add.at(summed, back.triangles[:, corner], np.cross(b - a, c - a))
+        return summed / np.linalg.norm(summed, axis=1, keepdims=True)
+
+    expected = exact(back.positions + back.deltas[0]) - exact(back.positions)
+    np.testing.assert_allclose(back.normal_deltas[0], expected, atol=1e-6)
 
 
 # --- layouts
@@ -104,7 +116,9 @@ def test_the_lowest_normalised_integer_is_minus_one(tmp_path):
 def test_quantised_integers_are_put_in_place_by_their_node(tmp_path):
     gltf = tetrahedron()
     gltf.json["extensionsRequired"] = ["KHR_mesh_quantization"]
-    gltf.primitive()["attributes"]["POSITION"] = gltf.accessor(np.array([[0, 0, 0], [8, 0, 0], [0, 8, 0], [0, 0, 8]], np.int16))
+    gltf.primitive()["attributes"]["POSITION"] = gltf.accessor(
+        np.array([[0, 0, 0], [8, 0, 0], [0, 8, 0], [0, 0, 8]], np.int16)
+    )
     gltf.json["nodes"][0]["scale"] = [0.125, 0.125, 0.125]
     np.testing.assert_allclose(read(tmp_path, gltf).positions.max(0), 1)
 
@@ -142,8 +156,18 @@ def test_a_mirroring_node_turns_the_triangles_round(tmp_path):
     plain, mirrored = read(tmp_path, tetrahedron()), read(tmp_path, gltf)
 
     def volume(face):
-        return np.einsum("ij,ij->i", *np.split(np.concatenate([face.positions[face.triangles[:, 0]], np.cross(
-            face.positions[face.triangles[:, 1]], face.positions[face.triangles[:, 2]])]), 2)).sum()
+        return np.einsum(
+            "ij,ij->i",
+            *np.split(
+                np.concatenate(
+                    [
+                        face.positions[face.triangles[:, 0]],
+                        np.cross(face.positions[face.triangles[:, 1]], face.positions[face.triangles[:, 2]]),
+                    ]
+                ),
+                2,
+            ),
+        ).sum()
 
     assert volume(plain) == pytest.approx(volume(mirrored))
     assert volume(plain) > 0
@@ -169,7 +193,9 @@ def test_several_meshes_and_primitives_become_one_and_share_shapes(tmp_path):
 
 def test_vertex_colours_times_the_materials_colour(tmp_path):
     gltf = tetrahedron()
-    gltf.primitive()["attributes"]["COLOR_0"] = gltf.accessor(np.array([[255, 0, 0, 255]] * 4, np.uint8), normalized=True)
+    gltf.primitive()["attributes"]["COLOR_0"] = gltf.accessor(
+        np.array([[255, 0, 0, 255]] * 4, np.uint8), normalized=True
+    )
     gltf.json["materials"] = [{"pbrMetallicRoughness": {"baseColorFactor": [0.5, 1, 1, 1], "roughnessFactor": 0.25}}]
     gltf.primitive()["material"] = 0
     np.testing.assert_allclose(read(tmp_path, gltf).colours, [[0.5, 0, 0, 0.75]] * 4)
@@ -195,13 +221,15 @@ def test_skinned_vertices_stand_where_their_joints_put_them(tmp_path):
         {"translation": [0, 4, 0]},
     ]
     gltf.json["scenes"][0]["nodes"] = [0, 1, 2]
-    np.testing.assert_allclose(read(tmp_path, gltf).positions, tetrahedron().points() + [1, 2, 0], atol=1e-6)
+    np.testing.assert_allclose(read(tmp_path, gltf).positions, tetrahedron().points() + np.array([1, 2, 0]), atol=1e-6)
 
 
 def test_strips_and_fans(tmp_path):
     for mode in (5, 6):
         gltf = Gltf()
-        points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0] if mode == 5 else [1, 1, 0], [1, 1, 0] if mode == 5 else [0, 1, 0]])
+        points = np.array(
+            [[0, 0, 0], [1, 0, 0], [0, 1, 0] if mode == 5 else [1, 1, 0], [1, 1, 0] if mode == 5 else [0, 1, 0]]
+        )
         gltf.add_mesh(points.astype(np.float32), [0, 1, 2, 3], {"x": np.eye(4, 3, dtype=np.float32)})
         gltf.primitive()["mode"] = mode
         face = read(tmp_path, gltf)
@@ -262,17 +290,15 @@ def test_no_damage_ends_in_anything_but_a_sentence(tmp_path_factory, data):
         raw[data.draw(st.integers(0, len(raw) - 1))] = data.draw(st.integers(0, 255))
     path = tmp_path_factory.mktemp("hit") / "face.glb"
     path.write_bytes(bytes(raw))
-    try:
-        face = read_glb(path)
-    except UserError as error:
-        assert str(error).startswith("face.glb")
-    else:
-        assert face.triangles.max() < len(face.positions)
+    face = read_or_refuse(path)
+    assert face is None or face.triangles.max() < len(face.positions)
 
 
 JUNK = st.recursive(
     st.none() | st.booleans() | st.integers(-3, 2**40) | st.floats(allow_nan=False) | st.text(max_size=4),
-    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.sampled_from(["mesh", "count", "x"]), inner, max_size=3),
+    lambda inner: (
+        st.lists(inner, max_size=3) | st.dictionaries(st.sampled_from(["mesh", "count", "x"]), inner, max_size=3)
+    ),
     max_leaves=5,
 )
 
@@ -293,10 +319,7 @@ def test_no_nonsense_in_the_description_ends_in_anything_but_a_sentence(tmp_path
         break
     path = tmp_path_factory.mktemp("nonsense") / "face.glb"
     path.write_bytes(gltf.glb())
-    try:
-        read_glb(path)
-    except UserError as error:
-        assert str(error).startswith("face.glb")
+    read_or_refuse(path)
 
 
 def test_accessor_past_its_buffer(tmp_path):

@@ -148,7 +148,7 @@ COMBINED = (
 )
 
 
-@pytest.mark.parametrize("weights", COMBINED, ids=lambda weights: " ".join(weights))
+@pytest.mark.parametrize("weights", COMBINED, ids=" ".join)
 def test_no_face_of_the_outer_skin_turns_inside_out(weights):
     def facing(points):
         first, count = TOON.parts["skin"]
@@ -160,7 +160,7 @@ def test_no_face_of_the_outer_skin_turns_inside_out(weights):
     assert (turned < np.cos(np.radians(100))).sum() == 0
 
 
-@pytest.mark.parametrize("weights", COMBINED, ids=lambda weights: " ".join(weights))
+@pytest.mark.parametrize("weights", COMBINED, ids=" ".join)
 def test_nothing_inside_pokes_through_the_skin(weights):
     """Under the nose, on cheek and chin, seen from the front and from the side: skin and nothing but skin."""
     windows = [((0.0, -0.20, 0.9), 0.05, (0, 0)), ((0.6, -0.1, 0.5), 0.1, (0, 0)), ((0.6, -0.2, 0.5), 0.1, (50, 0))]
