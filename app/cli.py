@@ -16,7 +16,6 @@ from core_pipeline.files.atomic import reason
 from core_pipeline.files.json_text import shown
 from core_pipeline.settings import PRESETS, SPLINES
 
-DEMO_SENTENCE = "Fat cats often find fish."
 COMMANDS = ("edit", "bake", "check", "render", "screenshot")
 
 
@@ -199,9 +198,10 @@ def _version() -> str:
 
 def _edit(options: argparse.Namespace) -> int:
     if not has_display():
+        from . import resources
         from .batch import demo
 
-        return demo(options.sentence or DEMO_SENTENCE, options.file)
+        return demo(options.sentence or resources.DEMO_SENTENCE, options.file)
     from .editor import run_editor
 
     return run_editor(options.file, options.sentence)

@@ -21,10 +21,10 @@ from core_pipeline.speech.speaker import Speaker
 from widgets import theme
 
 from . import resources
-from .cli import DEMO_SENTENCE
 from .document import Document
 from .file_actions import FileActions
 from .main_window import MainWindow
+from .parts import Parts
 from .preview import Preview
 from .session import Session
 from .settings import ViewState
@@ -46,8 +46,21 @@ class Editor(QObject):
         self.preview = Preview(self.session, self)
         self.speaker = Speaker()
         self.speech = SpeechWorker(self.speaker, self)
+        self._search = SpeechWorker(self.speaker, self)
         self.files = FileActions(self.window, self.document, self.session, state)
-        self.wiring = Wiring(self)
+        self.wiring = Wiring(
+            Parts(
+                document=self.document,
+                session=self.session,
+                window=self.window,
+                preview=self.preview,
+                files=self.files,
+                state=state,
+                speech=self.speech,
+                search=self._search,
+            ),
+            self,
+        )
         try:
             self.preview.set_face(face_folder.load(resources.face_folder()))
         except UserError as error:
@@ -56,13 +69,14 @@ class Editor(QObject):
     def start(self, sentence: str) -> None:
         """Begin drawing and speaking; the sentence is shown, and played when the user asks."""
         self.preview.start()
-        self.wiring.type_sentence(sentence, play=False)
+        self.wiring.sentence.type(sentence, play=False)
 
     def close(self) -> None:
         """Stop threads and timers, remember the layout."""
         self.wiring.remember()
         self.files.autosave.finish()
         self.speech.stop()
+        self._search.stop()
         self.preview.stop()
         self.state.write()
 
@@ -77,7 +91,7 @@ def run_editor(file: Path | None, sentence: str | None) -> int:
     editor = Editor(curve_set_json.load(resources.english_curves()), state)
     editor.wiring.restore()
     editor.window.show()
-    editor.start(sentence or state.text("sentence") or DEMO_SENTENCE)
+    editor.start(sentence or state.text("sentence") or resources.DEMO_SENTENCE)
 
     def first_things() -> None:
         editor.files.offer_recovery()

@@ -7,10 +7,10 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from core_pipeline.faces.face_folder import load
 from numpy.typing import NDArray
 from PIL import Image
 
+from core_pipeline.faces.face_folder import load
 from core_pipeline.faces.render import FaceRenderer
 from core_pipeline.faces.render_context import Platform
 from core_pipeline.faces.view import View

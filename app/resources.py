@@ -6,6 +6,9 @@ from pathlib import Path
 
 from core_pipeline.errors import UserError
 
+#: What the editor says first, and where there is no display.
+DEMO_SENTENCE = "Fat cats often find fish."
+
 _HERE = Path(__file__).resolve().parent
 
 

@@ -36,10 +36,10 @@ def screenshot(text: str, curve_set: CurveSet, out: Path, size: tuple[int, int],
         editor.window.resize(*size)
         editor.window.show()
         editor.preview.start()
-        editor.wiring.take_utterance(utterance, play=False)
+        editor.wiring.sentence.take(utterance, play=False)
         editor.session.recompute()
         middle = utterance.schedule.start + utterance.schedule.duration / 2
-        editor.wiring.open_at(middle)
+        editor.wiring.bigram.open_at(middle)
         editor.preview.scrub(middle)
         _wait_for_face(editor)
         picture = editor.window.grab().toImage()

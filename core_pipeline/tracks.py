@@ -140,7 +140,18 @@ def minimal(x: Array, v: Array) -> tuple[Array, Array]:
     np.greater(area, COLLINEAR * (x[2:] - x[:-2]), out=keep[1:-1])
     moves = v > 0  # where a pose begins or ends to move is never left out, however gently it does
     keep[1:-1] |= (moves[:-2] != moves[2:]) & ~moves[1:-1]
+    if (~(keep[1:] | keep[:-1]) & (moves[1:] | moves[:-1])).any():
+        _restore_corners(x, v, keep)
     return pick(keep, x, v)
+
+
+def _restore_corners(x: Array, v: Array, keep: Mask) -> None:
+    """Keep again what must stay: of two knots close together each is nearly on a line with the other, corner or not."""
+    while True:
+        off = np.abs(np.interp(x, *pick(keep, x, v)) - v) > 10 * COLLINEAR
+        if not off.any():
+            return
+        keep |= off
 
 
 def weave(x: Array, v: Array, keep: Mask, i: NDArray[np.intp], xc: Array, vc: Array) -> tuple[Array, Array]:

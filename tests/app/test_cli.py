@@ -6,7 +6,6 @@ import os
 import subprocess
 import sys
 import wave
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +20,6 @@ from core_pipeline.files import curve_set_json, schedule_json
 from core_pipeline.poses import FACEFX
 from core_pipeline.schedule import Schedule
 from core_pipeline.settings import PRESETS, SPLINES
-from core_pipeline.speech import speaker
 
 ROOT = Path(cli.__file__).parents[1]
 SCHEDULE = Schedule(["sil", "f", "ae", "t", "sil"], [0.0, 0.1, 0.2, 0.32, 0.4, 0.5])
@@ -29,12 +27,10 @@ QT_MODULES = ("PySide6", "shiboken6", "pyqtgraph", "qtawesome")
 
 
 @pytest.fixture(autouse=True)
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """An empty folder to work in, with one schedule; the voice is sent home afterwards."""
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A folder to work in, with nothing but a schedule."""
     monkeypatch.chdir(tmp_path)
     schedule_json.save(SCHEDULE, "times.json")
-    yield
-    speaker._shared().close()
 
 
 def english() -> CurveSet:

@@ -9,13 +9,11 @@ import pytest
 from PIL import Image
 
 from app import cli
-from core_pipeline.speech import speaker
 
 
 def test_a_word_becomes_frames_on_which_the_mouth_moves(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "new" / "frames"
     assert cli.main(["render", "Papa!", "--out", str(out), "--size", "64x64", "--fps", "12"]) == 0
-    speaker._shared().close()
     files = sorted(out.glob("*.png"))
     assert [file.name for file in files] == [f"frame_{i:05d}.png" for i in range(len(files))]
     assert capsys.readouterr().out == f"{len(files)} frames at 12 per second in {out}\n"
@@ -39,7 +37,6 @@ def test_a_word_becomes_frames_on_which_the_mouth_moves(tmp_path: Path, capsys: 
 def test_a_folder_that_cannot_be_made_is_said(tmp_path: Path, place: str, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "file").write_text("mine")
     assert cli.main(["render", "Hi.", "--out", str(tmp_path / place), "--size", "64x64"]) == 2
-    speaker._shared().close()
     err = capsys.readouterr().err
     assert err.startswith(f"lipstitch: Cannot make the folder {tmp_path / place}: ")
     assert err.count("\n") == 1

@@ -15,9 +15,9 @@ from widgets import theme
 ROOT = Path(cli.__file__).parents[1]
 
 
-def near(picture: np.ndarray, colour: str, tolerance: int = 24) -> int:
-    """How many pixels have a colour, or nearly."""
-    value = np.array([int(colour[i : i + 2], 16) for i in (1, 3, 5)])
+def drawn(picture: np.ndarray, stage: str, tolerance: int = 24) -> int:
+    """How many pixels have the colour of a stage, or nearly."""
+    value = theme.STAGE_STYLES[stage].colour.getRgb()[:3]
     return int((np.abs(picture - value).max(axis=-1) <= tolerance).sum())
 
 
@@ -33,8 +33,8 @@ def test_the_window_is_drawn_in_mid_sentence(tmp_path: Path) -> None:
         assert image.size == (1200, 800)
         picture = np.asarray(image.convert("RGB"), int)
     lower, right = picture[400:], picture[:400, 800:]
-    assert near(lower, theme.STAGES["magenta"]) > 300, "the last stage is drawn"
-    assert near(lower, theme.STAGES["red"]) > 50, "the bigrams' own curves are drawn"
+    assert drawn(lower, "magenta") > 300, "the last stage is drawn"
+    assert drawn(lower, "red") > 50, "the bigrams' own curves are drawn"
     red, green, blue = right[..., 0], right[..., 1], right[..., 2]
     skin = (red > 150) & (red > green + 25) & (green > blue + 5)
     assert skin.sum() > 3000, "there is a face in the preview"

@@ -71,6 +71,16 @@ def test_the_point_where_a_pose_comes_to_rest_is_kept_however_gently_it_does():
     assert minimal(x[:4], v[:4])[0].tolist() == [0, 0.1, 0.2]
 
 
+def test_a_corner_of_two_close_knots_is_kept():
+    # 30 ns apart on gentle slopes, each of the two is within 1e-9 of the line between its neighbours
+    x = np.array([0, 0.5, 0.5 + 3e-8, 1.0])
+    v = np.array([0, 5e-3, 5e-3, 0])
+    for valley in (v, np.array([1, 0.995, 0.995, 1])):
+        line = np.concatenate(([-1.0], x, [2.0])), np.concatenate(([0], valley, [0]))
+        made = minimal(*line)
+        assert np.interp(x, *made) == pytest.approx(valley, abs=1e-8)
+
+
 def test_near_equal_knots_become_one_before_anything_is_called_collinear():
     x, v = apart(np.array([0, 0.1, 0.1 + NEAR / 10, 0.2]), np.array([0, 0.5, 0.5, 0.6]))
     assert (x.tolist(), v.tolist()) == ([0, 0.1, 0.2], [0, 0.5, 0.6])

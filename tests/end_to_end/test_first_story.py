@@ -50,7 +50,7 @@ def drag_key(editor: Editor, pose: str, index: int, dt: float, dv: float) -> Non
 def test_type_drag_undo_save_reload_export(editor: Editor, qtbot: QtBot, tmp_path: Path) -> None:
     stages = speak(editor, qtbot, "Fat cats often find fish.")
     assert stages.schedule.phones[1:4] == ("f", "ah", "d")
-    editor.wiring.open_bigram(("f", "ah"))
+    editor.wiring.bigram.open(("f", "ah"))
     start = editor.document.curve_set
     before = start.bigrams["f", "ah"]
     top = int(before.curves["open"].v.argmax())
@@ -98,7 +98,7 @@ def test_type_drag_undo_save_reload_export(editor: Editor, qtbot: QtBot, tmp_pat
 def test_overlay_and_face_follow_while_the_key_is_still_held(editor: Editor, qtbot: QtBot) -> None:
     stages = speak(editor, qtbot, "Fat cats often find fish.")
     editor.preview.player.pause()
-    editor.wiring.open_bigram(("f", "ah"))
+    editor.wiring.bigram.open(("f", "ah"))
     canvas = editor.window.canvas
     canvas.set_active("FV")
     curve = canvas.curves["FV"]
@@ -155,7 +155,7 @@ def test_a_click_in_the_overlay_opens_the_bigram_that_made_it(editor: Editor, qt
     index = stages.winner("FV", moment)
     assert index is not None
     editor.window.stage_panel.bigram_picked.emit(index, moment, "FV")
-    assert editor.wiring.pair == stages.schedule.pairs()[index]
+    assert editor.wiring.bigram.pair == stages.schedule.pairs()[index]
     assert editor.window.canvas.active == "FV"
     assert editor.preview.player.time == pytest.approx(moment)
 
@@ -165,17 +165,17 @@ def test_a_word_in_the_search_finds_its_bigrams(editor: Editor, qtbot: QtBot) ->
     search.setFocus()
     QTest.keyClicks(search, "f ah")
     QTest.keyClick(search, Qt.Key.Key_Return)
-    assert editor.wiring.pair == ("f", "ah")
+    assert editor.wiring.bigram.pair == ("f", "ah")
     search.clear()
     QTest.keyClicks(search, "low")
     QTest.keyClick(search, Qt.Key.Key_Return)
-    qtbot.waitUntil(lambda: editor.wiring.pair == ("l", "ow"), timeout=20_000)
+    qtbot.waitUntil(lambda: editor.wiring.bigram.pair == ("l", "ow"), timeout=20_000)
 
 
 def test_space_in_the_canvas_plays_the_bigram_alone(editor: Editor, qtbot: QtBot) -> None:
     speak(editor, qtbot, "Fat cats.")
     editor.preview.player.pause()
-    editor.wiring.open_bigram(("f", "ah"))
+    editor.wiring.bigram.open(("f", "ah"))
     seen: list[float] = []
     editor.preview.bigram_moment.connect(lambda s: seen.append(s) if s is not None else None)
     QTest.keyClick(editor.window.canvas.viewport(), Qt.Key.Key_Space)
@@ -232,7 +232,7 @@ def test_closing_with_unsaved_work_asks(
     monkeypatch.setattr(QMessageBox, "question", question)
     path = tmp_path / "mine.json"
     editor.document.save(path)
-    editor.wiring.open_bigram(("f", "ah"))
+    editor.wiring.bigram.open(("f", "ah"))
     top = int(editor.window.canvas.curves["FV"].v.argmax())
     drag_key(editor, "FV", top, 0.0, -0.3)
     assert editor.document.is_dirty
@@ -246,10 +246,10 @@ def test_closing_with_unsaved_work_asks(
 
 
 def test_undo_of_another_bigram_shows_that_bigram(editor: Editor, qtbot: QtBot) -> None:
-    editor.wiring.open_bigram(("f", "ah"))
+    editor.wiring.bigram.open(("f", "ah"))
     top = int(editor.window.canvas.curves["FV"].v.argmax())
     drag_key(editor, "FV", top, 0.0, -0.3)
-    editor.wiring.open_bigram(("l", "ow"))
+    editor.wiring.bigram.open(("l", "ow"))
     editor.window.actions_.undo.trigger()
-    assert editor.wiring.pair == ("f", "ah")
+    assert editor.wiring.bigram.pair == ("f", "ah")
     assert editor.window.picker.current == ("f", "ah")

@@ -1,0 +1,151 @@
+"""Which of a rig's shapes make up each viseme pose: names are compared, and the preset that fits best is taken.
+
+The paper's poses are FaceFX's (section 3.1.2, figure 4); rigs come with other shapes. A preset says how to mix
+a pose from the shapes of one naming convention; presets are files, see assets/retarget.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from types import MappingProxyType
+
+from core_pipeline.poses import FACEFX
+
+Mix = Mapping[str, float]
+
+#: A pose can be made when the rig has the shapes that carry this much of it.
+ENOUGH = 0.5
+#: Name of the mapping in which every pose is the shape of the same name.
+OWN_NAMES = "own names"
+
+_SIDE = re.compile(r"(left|right)$")
+_COPY = re.compile(r"\.\d+$")
+
+
+@dataclass(frozen=True)
+class Preset:
+    """How one naming convention makes the poses.
+
+    poses    pose → {shape: amount}, both sides written out
+    aliases  shape → other names it goes by
+    names    shapes by which a rig of this convention is recognised
+    """
+
+    name: str
+    title: str
+    poses: Mapping[str, Mix]
+    aliases: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    names: frozenset[str] = frozenset()
+
+
+@dataclass(frozen=True)
+class Retarget:
+    """A preset met a rig: what each pose is made of, which poses cannot be made, and what is worth knowing.
+
+    preset  the preset's name, or OWN_NAMES
+    title   the same for people
+    poses   pose → {shape of the rig: amount}
+    notes   one sentence each
+    """
+
+    preset: str
+    title: str
+    poses: Mapping[str, Mix]
+    missing: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+
+
+def normalised(name: str) -> str:
+    """A shape's name as it is compared: no prefix, no case, no separators, sides as l and r.
+
+    "Head.mouthSmile_L" and "mouth smile left" are one; the ".001" some programs append is no name.
+    """
+    plain = _COPY.sub("", name).rpartition(".")[2].casefold()
+    plain = plain.replace("_", "").replace(" ", "").replace("-", "")
+    return _SIDE.sub(lambda side: side[0][0], plain)
+
+
+class Rig:
+    """The shapes of a rig, to be found by any spelling."""
+
+    def __init__(self, shapes: Iterable[str]) -> None:
+        self._found: dict[str, list[str]] = {}
+        for shape in shapes:
+            self._found.setdefault(normalised(shape), []).append(shape)
+
+    def shapes(self, wanted: str, preset: Preset) -> list[str]:
+        """The rig's shapes for a preset's one: by its name or an alias, else both sides in one (mouthSmile)."""
+        keys = [normalised(name) for name in (wanted, *preset.aliases.get(wanted, ()))]
+        merged = [key[:-1] for key in keys if _has_side(wanted) and key[-1:] in ("l", "r")]
+        return next((self._found[key] for key in (*keys, *merged) if key in self._found), [])
+
+    def overlap(self, preset: Preset) -> int:
+        """How many of the preset's names the rig has."""
+        return sum(bool(self.shapes(name, preset)) for name in preset.names)
+
+
+def _has_side(name: str) -> bool:
+    return bool(re.search(r"(left|right|l|r)$", name.casefold()))
+
+
+def best(shapes: Sequence[str], presets: Iterable[Preset], poses: Sequence[str] = FACEFX) -> Retarget:
+    """The preset that knows most of the rig's names, applied; the rig's own names where they are the poses.
+
+    poses  the pose set of the curves that shall play; poses no preset knows are looked for by name
+    """
+    rig = Rig(shapes)
+    own = Preset(OWN_NAMES, "its own pose names", {pose: {pose: 1.0} for pose in poses}, names=frozenset(poses))
+    overlaps = [(rig.overlap(preset), preset) for preset in (own, *presets)]
+    most, chosen = max(overlaps, key=lambda found: found[0])
+    if not most:
+        told = f"No naming convention fits these shapes ({_listed(shapes)}): say yourself what makes each pose."
+        return Retarget(OWN_NAMES, own.title, MappingProxyType({}), tuple(poses), (told,))
+    return apply(chosen, shapes, poses)
+
+
+def apply(preset: Preset, shapes: Sequence[str], poses: Sequence[str] = FACEFX) -> Retarget:
+    """The poses as this rig can make them by `preset`."""
+    rig = Rig(shapes)
+    made: dict[str, Mix] = {}
+    notes: list[str] = []
+    for pose in poses:
+        wanted = preset.poses.get(pose, {pose: 1.0})
+        mix, lacking = _mixed(rig, preset, wanted)
+        total = sum(abs(amount) for amount in wanted.values())
+        if not mix or sum(abs(wanted[name]) for name in lacking) > ENOUGH * total:
+            continue
+        made[pose] = MappingProxyType(mix)
+        if lacking:
+            notes.append(f"{pose} is made without {', '.join(lacking)}: the rig has no such shape.")
+    missing = tuple(pose for pose in poses if pose not in made)
+    if missing:
+        notes.append(f"Not available on this face: {', '.join(missing)}.")
+    return Retarget(preset.name, preset.title, MappingProxyType(made), missing, tuple(notes))
+
+
+def _mixed(rig: Rig, preset: Preset, wanted: Mix) -> tuple[dict[str, float], list[str]]:
+    """The rig's shapes for a mix, and the names it lacks; a shape asked for twice (both sides in one) counts once."""
+    mix: dict[str, float] = {}
+    lacking: list[str] = []
+    found = {name: rig.shapes(name, preset) for name in wanted}
+    for name, amount in wanted.items():
+        if not found[name]:
+            lacking.append(name)
+        for shape in found[name]:
+            mix[shape] = max(mix.get(shape, 0.0), amount)
+    return _closed_no_wider_than_open(mix), lacking
+
+
+def _closed_no_wider_than_open(mix: dict[str, float]) -> dict[str, float]:
+    """mouthClose takes back what jawOpen does to the lips; with more of it than of jawOpen they pass each other."""
+    opened = max((amount for shape, amount in mix.items() if normalised(shape) == "jawopen"), default=0.0)
+    kept = {
+        shape: min(amount, opened) if normalised(shape) == "mouthclose" else amount for shape, amount in mix.items()
+    }
+    return {shape: amount for shape, amount in kept.items() if amount}
+
+
+def _listed(shapes: Sequence[str], most: int = 4) -> str:
+    return ", ".join(shapes[:most]) + (" …" if len(shapes) > most else "")
