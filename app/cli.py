@@ -58,7 +58,8 @@ def _refuse(sentence: str) -> int:
 
 def _drop_output() -> None:
     """What is still buffered cannot be written; Python would try once more when it ends, and complain."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    if sys.stdout is not None:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 class _Parser(argparse.ArgumentParser):

@@ -95,7 +95,7 @@ def run_editor(file: Path | None, sentence: str | None) -> int:
 
     def first_things() -> None:
         editor.files.offer_recovery()
-        if file is not None:
+        if file is not None and editor.files.may_discard():
             editor.files.open(file)
 
     QTimer.singleShot(0, editor, first_things)

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from PySide6.QtCore import QObject
+from PySide6.QtGui import Qt
 from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
 
 from core_pipeline.curve_set import CurveSet
@@ -100,8 +101,10 @@ class FileActions(QObject):
         answer = QMessageBox.question(
             self._window,
             self.tr("Unsaved work found"),
-            self.tr("Lipstitch did not close properly. Unsaved work on “{0}” from {1} was kept. Go on with it?").format(
-                name, when
+            _plain(
+                self.tr(
+                    "Lipstitch did not close properly. Unsaved work on “{0}” from {1} was kept. Go on with it?"
+                ).format(name, when)
             ),
             _Button.Yes | _Button.Discard,
             _Button.Yes,
@@ -119,7 +122,8 @@ class FileActions(QObject):
         if self._document.read_only_reason:
             self.complain(self._document.read_only_reason)
             return False
-        path = self._ask_path(self.tr("Save the curve set"), CURVE_SETS, "curves.json")
+        name = self._document.path.name if self._document.path is not None else "curves.json"
+        path = self._ask_path(self.tr("Save the curve set"), CURVE_SETS, name)
         if path is None:
             return False
         saved = self.attempt(lambda: self._document.save(path))
@@ -187,7 +191,7 @@ class FileActions(QObject):
         answer = QMessageBox.question(
             self._window,
             self.tr("Save changes?"),
-            self.tr("“{0}” has unsaved changes. Save them?").format(self._document.title),
+            _plain(self.tr("“{0}” has unsaved changes. Save them?").format(self._document.title)),
             _Button.Save | _Button.Discard | _Button.Cancel,
             _Button.Save,
         )
@@ -206,4 +210,10 @@ class FileActions(QObject):
 
     def complain(self, sentence: str) -> None:
         """One sentence in a box."""
-        QMessageBox.warning(self._window, self.tr("Lipstitch"), sentence)
+        QMessageBox.warning(self._window, self.tr("Lipstitch"), _plain(sentence))
+
+
+def _plain(text: str) -> str:
+    """Names from files are shown as they are, never read as markup."""
+    normal = Qt.WhiteSpaceMode.WhiteSpaceNormal
+    return Qt.convertFromPlainText(text, normal) if Qt.mightBeRichText(text) else text

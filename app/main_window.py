@@ -192,6 +192,8 @@ class MainWindow(QMainWindow):
         self.saved_label = QLabel()
         self.hint_label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.hint_label.setForegroundRole(QPalette.ColorRole.PlaceholderText)
+        for label in (self.selection_label, self.hint_label, self.missing_label, self.timing_label, self.saved_label):
+            label.setTextFormat(Qt.TextFormat.PlainText)  # names from files are no markup
         bar = self.statusBar()
         bar.setSizeGripEnabled(False)
         bar.addWidget(self.selection_label)

@@ -17,11 +17,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core_pipeline.errors import UserError
+from core_pipeline.faces import meshopt
+from core_pipeline.faces.limits import LARGEST, MAX_FILE
+from core_pipeline.files.json_text import shown
 
-MAX_FILE = 512 * 2**20
 MAX_VALUES = 64 * 2**20
-LARGEST = 1e6
-KNOWN_EXTENSIONS = frozenset({"KHR_mesh_quantization", "KHR_materials_unlit", "KHR_texture_transform"})
+#: What a file may insist on; materials may insist on anything, we take their colour alone.
+KNOWN_EXTENSIONS = frozenset(
+    {
+        "KHR_mesh_quantization",
+        "KHR_texture_transform",
+        "KHR_draco_mesh_compression",
+        "EXT_meshopt_compression",
+        "EXT_texture_webp",
+        "KHR_texture_basisu",
+        "KHR_lights_punctual",
+    }
+)
 _MAGIC = b"glTF"
 _TYPES = {5120: np.int8, 5121: np.uint8, 5122: np.int16, 5123: np.uint16, 5125: np.uint32, 5126: np.float32}
 _TOP = {5120: 127, 5121: 255, 5122: 32767, 5123: 65535, 5125: 2**32 - 1}
@@ -35,6 +47,11 @@ class GltfFile:
 
     def __init__(self, path: Path) -> None:
         self.path = path
+        self.files = [path]
+        self.notes: list[str] = []
+        self._lists: dict[str, list[Json]] = {}
+        self._decoded: dict[int, NDArray[Any]] = {}
+        self._unpacked: dict[int, bytes] = {}
         raw = _read(path, path.name)
         self._inline: bytes | None = None
         self.json = self._parse(raw)
@@ -47,13 +64,15 @@ class GltfFile:
 
     def items(self, name: str) -> list[Json]:
         """A top-level list of the document, such as `nodes`; empty when there is none."""
-        return self.parts(self.json, name)
+        if name not in self._lists:
+            self._lists[name] = self.parts(self.json, name)
+        return self._lists[name]
 
     def item(self, name: str, index: object) -> Json:
         """One entry of a top-level list."""
         found = self.items(name)
         if isinstance(index, bool) or not isinstance(index, int) or not 0 <= index < len(found):
-            raise self.fail(f"it refers to {name} {index!r}, but has {len(found)}; export the file again.")
+            raise self.fail(f"it refers to {name} {shown(repr(index))}, but has {len(found)}; export the file again.")
         return found[index]
 
     def part(self, entry: Json, key: str) -> Json:
@@ -77,24 +96,54 @@ class GltfFile:
             raise self.fail(f"“{key}” is not a list of numbers; export the file again.")
         return found
 
+    def floats(self, values: object, count: int) -> NDArray[np.floating[Any]]:
+        """(count,) numbers of a transform or a colour."""
+        try:
+            numbers = np.asarray(values, float)
+        except (TypeError, ValueError, OverflowError):
+            numbers = np.array(np.nan)
+        if numbers.shape != (count,) or not (np.abs(numbers) <= LARGEST).all():
+            raise self.fail(f"a transform or colour is not {count} sensible numbers; export the file again.")
+        return numbers
+
+    def note(self, what: str) -> None:
+        """Something odd that is no reason to refuse the file; said once."""
+        if what not in self.notes:
+            self.notes.append(what)
+
+    def decoded(self, index: object, values: NDArray[Any]) -> None:
+        """From now on an accessor has these (count, width) values: they came compressed."""
+        self.item("accessors", index)
+        assert isinstance(index, int)
+        self._decoded[index] = values
+
+    def data(self, index: object) -> bytes:
+        """The bytes of a buffer view."""
+        view = self.item("bufferViews", index)
+        buffer, offset = self._bytes_of(view, index)
+        return bytes(buffer[offset : offset + self.whole(view, "byteLength")])
+
     def count(self, index: object) -> int:
         """Number of elements of an accessor, without reading it."""
-        return self._whole(self.item("accessors", index), "count")
+        return self.whole(self.item("accessors", index), "count")
 
     def read(self, index: object, kind: str) -> NDArray[Any]:
         """(count, width) values of an accessor of type `kind`; normalised integers become floats, as glTF says."""
         accessor = self.item("accessors", index)
+        assert isinstance(index, int)
         where = f"accessor {index}"
         if accessor.get("type") != kind:
             raise self.fail(f"{where} is {accessor.get('type')!r} where {kind} is expected; export the file again.")
         component = accessor.get("componentType")
         if type(component) is not int or component not in _TYPES:
             raise self.fail(f"{where} has the unknown component type {component!r}; export the file again.")
-        count, width, dtype = self._whole(accessor, "count"), _WIDTHS[kind], np.dtype(_TYPES[component])
+        count, width, dtype = self.whole(accessor, "count"), _WIDTHS[kind], np.dtype(_TYPES[component])
         if count * width > MAX_VALUES:
             raise self.fail(f"{where} announces {count:,} elements, more than we take; reduce the mesh.")
-        if "bufferView" in accessor:
-            start = self._whole(accessor, "byteOffset", 0)
+        if index in self._decoded:
+            values = self._decoded[index]
+        elif "bufferView" in accessor:
+            start = self.whole(accessor, "byteOffset", 0)
             values = self._view(accessor["bufferView"], start, count, width, dtype, where)
         else:
             values = np.zeros((count, width), dtype)
@@ -110,7 +159,7 @@ class GltfFile:
         return values
 
     def _with_sparse(self, values: NDArray[Any], sparse: Json, where: str) -> NDArray[Any]:
-        count = self._whole(sparse, "count")
+        count = self.whole(sparse, "count")
         indices, changed = self.part(sparse, "indices"), self.part(sparse, "values")
         if count > len(values):
             raise self.fail(
@@ -119,11 +168,11 @@ class GltfFile:
         component = indices.get("componentType")
         if component not in (5121, 5123, 5125):
             raise self.fail(f"{where}: sparse indices of component type {component!r}; export the file again.")
-        start = self._whole(indices, "byteOffset", 0)
+        start = self.whole(indices, "byteOffset", 0)
         places = self._view(indices.get("bufferView"), start, count, 1, np.dtype(_TYPES[component]), where)[:, 0]
         if count and places.max() >= len(values):
             raise self.fail(f"{where}: a sparse index {places.max()} is past its {len(values)} elements.")
-        start = self._whole(changed, "byteOffset", 0)
+        start = self.whole(changed, "byteOffset", 0)
         full = values.copy()
         full[places] = self._view(changed.get("bufferView"), start, count, values.shape[1], values.dtype, where)
         return full
@@ -132,18 +181,12 @@ class GltfFile:
         self, index: object, start: int, count: int, width: int, dtype: np.dtype[Any], where: str
     ) -> NDArray[Any]:
         view = self.item("bufferViews", index)
-        if "EXT_meshopt_compression" in self.part(view, "extensions"):
-            raise self.fail("it is compressed with meshopt, which we cannot read; export it without compression.")
-        offset, length = self._whole(view, "byteOffset", 0), self._whole(view, "byteLength")
+        length = self.whole(view, "byteLength")
         size = width * dtype.itemsize
-        stride = self._whole(view, "byteStride", size) or size
+        stride = self.whole(view, "byteStride", size) or size
         if stride < size:
             raise self.fail(f"bufferView {index}: stride {stride} is below an element's {size} bytes.")
-        buffer = self._buffer(view.get("buffer"))
-        if offset + length > len(buffer):
-            raise self.fail(
-                f"bufferView {index} ends at byte {offset + length:,} of a buffer of {len(buffer):,} bytes."
-            )
+        buffer, offset = self._bytes_of(view, index)
         if count and start + stride * (count - 1) + size > length:
             raise self.fail(
                 f"{where} reaches past the end of bufferView {index}; the file is damaged, export it again."
@@ -154,12 +197,39 @@ class GltfFile:
         )
         return rows.astype(dtype)
 
+    def _bytes_of(self, view: Json, index: object) -> tuple[bytes, int]:
+        """The bytes a buffer view looks at, decompressed when need be, and where in them it begins."""
+        packed = self.part(self.part(view, "extensions"), "EXT_meshopt_compression")
+        if packed:
+            assert isinstance(index, int)
+            if index not in self._unpacked:
+                self._unpacked[index] = self._unpack(packed, self.whole(view, "byteLength"), index)
+            return self._unpacked[index], 0
+        offset, length = self.whole(view, "byteOffset", 0), self.whole(view, "byteLength")
+        buffer = self._buffer(view.get("buffer"))
+        if offset + length > len(buffer):
+            raise self.fail(
+                f"bufferView {index} ends at byte {offset + length:,} of a buffer of {len(buffer):,} bytes."
+            )
+        return buffer, offset
+
+    def _unpack(self, packed: Json, length: int, index: int) -> bytes:
+        count, stride = self.whole(packed, "count"), self.whole(packed, "byteStride")
+        if count * stride != length or length > MAX_FILE:
+            raise self.fail(f"bufferView {index} unpacks {count:,} × {stride} bytes where {length:,} are announced.")
+        raw, offset = self._bytes_of({key: value for key, value in packed.items() if key != "extensions"}, None)
+        data = raw[offset : offset + self.whole(packed, "byteLength")]
+        try:
+            return meshopt.decode(data, count, stride, str(packed.get("mode")), str(packed.get("filter", "NONE")))
+        except ValueError as error:
+            raise self.fail(f"bufferView {index} is packed with meshopt, but {error}; export the file again.") from None
+
     def _buffer(self, index: object) -> bytes:
         entry = self.item("buffers", index)
         assert isinstance(index, int)
         if index not in self._buffers:
             data = self._load(entry, index)
-            if len(data) < self._whole(entry, "byteLength"):
+            if len(data) < self.whole(entry, "byteLength"):
                 raise self.fail(f"buffer {index} is cut off: {len(data):,} of {entry['byteLength']:,} bytes.")
             self._buffers[index] = data
         return self._buffers[index]
@@ -170,18 +240,25 @@ class GltfFile:
             if index or self._inline is None:
                 raise self.fail(f"buffer {index} has no data; the file is cut off or incomplete.")
             return self._inline
+        return self.beside(uri, f"buffer {index}")
+
+    def beside(self, uri: object, what: str) -> bytes:
+        """Data inside a uri, or in a file in the folder of this one; nowhere else."""
         if not isinstance(uri, str):
-            raise self.fail(f"buffer {index} has no readable uri; export the file again.")
+            raise self.fail(f"{what} has no readable uri; export the file again.")
         if uri.startswith("data:"):
             try:
                 return base64.b64decode(uri.partition(",")[2], validate=True)
             except (binascii.Error, ValueError):
-                raise self.fail(f"the data inside buffer {index} is not base64; export the file again.") from None
-        folder = self.path.parent.resolve()
-        beside = (folder / unquote(uri)).resolve()
-        if ":" in uri.split("/")[0] or not beside.is_relative_to(folder):
-            raise self.fail(f"buffer {index} lies outside the file's folder ({uri[:60]}); put it beside the file.")
-        return _read(beside, f"{self.path.name}: buffer {unquote(uri)}")
+                raise self.fail(f"the data inside {what} is not base64; export the file again.") from None
+        name, path = unquote(uri), None
+        if ":" not in uri.split("/")[0] and "\0" not in name:
+            folder = self.path.parent.resolve()
+            path = (folder / name).resolve()
+        if path is None or not path.is_relative_to(folder):
+            raise self.fail(f"{what} lies outside the file's folder ({shown(uri, 60)}); put it beside the file.")
+        self.files.append(path)
+        return _read(path, f"{self.path.name}: {what}, {shown(name, 60)}")
 
     def _parse(self, raw: bytes) -> Json:
         text: bytes | None = raw if raw.lstrip()[:1] == b"{" else None
@@ -228,10 +305,12 @@ class GltfFile:
         if not isinstance(required, list):
             raise self.fail("“extensionsRequired” is not a list; export the file again.")
         missing = sorted({str(name) for name in required} - KNOWN_EXTENSIONS)
+        missing = [shown(name) for name in missing if not name.startswith("KHR_materials_")]
         if missing:
-            raise self.fail(f"it needs {', '.join(missing)}, which we cannot read; export it without.")
+            raise self.fail(f"it needs {', '.join(missing[:5])}, which we cannot read; export it without.")
 
-    def _whole(self, entry: Json, key: str, default: int | None = None) -> int:
+    def whole(self, entry: Json, key: str, default: int | None = None) -> int:
+        """A size inside an object."""
         value = entry.get(key, default)
         if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < 2**40:
             raise self.fail(f"“{key}” is {value!r} where a size is expected; export the file again.")

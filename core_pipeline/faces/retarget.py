@@ -21,6 +21,7 @@ ENOUGH = 0.5
 OWN_NAMES = "own names"
 
 _SIDE = re.compile(r"(left|right)$")
+_ONE_SIDE = re.compile(r"_?(Left|Right|[UD]?[LR])$")
 _COPY = re.compile(r"\.\d+$")
 
 
@@ -60,11 +61,12 @@ class Retarget:
 def normalised(name: str) -> str:
     """A shape's name as it is compared: no prefix, no case, no separators, sides as l and r.
 
-    "Head.mouthSmile_L" and "mouth smile left" are one; the ".001" some programs append is no name.
+    "Head.mouthSmile_L" and "mouth smile left" are one; the ".001" some programs append is no name, and neither
+    is MetaHuman's "CTRL_expressions".
     """
     plain = _COPY.sub("", name).rpartition(".")[2].casefold()
     plain = plain.replace("_", "").replace(" ", "").replace("-", "")
-    return _SIDE.sub(lambda side: side[0][0], plain)
+    return _SIDE.sub(lambda side: side[0][0], plain.removeprefix("ctrlexpressions"))
 
 
 class Rig:
@@ -77,17 +79,13 @@ class Rig:
 
     def shapes(self, wanted: str, preset: Preset) -> list[str]:
         """The rig's shapes for a preset's one: by its name or an alias, else both sides in one (mouthSmile)."""
-        keys = [normalised(name) for name in (wanted, *preset.aliases.get(wanted, ()))]
-        merged = [key[:-1] for key in keys if _has_side(wanted) and key[-1:] in ("l", "r")]
-        return next((self._found[key] for key in (*keys, *merged) if key in self._found), [])
+        names = [wanted, *preset.aliases.get(wanted, ())]
+        names += [_ONE_SIDE.sub("", name) for name in names]
+        return next((found for name in names if (found := self._found.get(normalised(name)))), [])
 
     def overlap(self, preset: Preset) -> int:
         """How many of the preset's names the rig has."""
         return sum(bool(self.shapes(name, preset)) for name in preset.names)
-
-
-def _has_side(name: str) -> bool:
-    return bool(re.search(r"(left|right|l|r)$", name.casefold()))
 
 
 def best(shapes: Sequence[str], presets: Iterable[Preset], poses: Sequence[str] = FACEFX) -> Retarget:
@@ -97,7 +95,7 @@ def best(shapes: Sequence[str], presets: Iterable[Preset], poses: Sequence[str] 
     """
     rig = Rig(shapes)
     own = Preset(OWN_NAMES, "its own pose names", {pose: {pose: 1.0} for pose in poses}, names=frozenset(poses))
-    overlaps = [(rig.overlap(preset), preset) for preset in (own, *presets)]
+    overlaps = [(rig.overlap(preset), preset) for preset in (*presets, own)]
     most, chosen = max(overlaps, key=lambda found: found[0])
     if not most:
         told = f"No naming convention fits these shapes ({_listed(shapes)}): say yourself what makes each pose."

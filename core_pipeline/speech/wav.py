@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import wave
 from pathlib import Path
 
@@ -9,19 +10,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import UserError
+from ..files.atomic import write_atomically
 from .utterance import Audio
 
 
 def write_wav(path: Path | str, audio: Audio) -> None:
-    """16-bit mono; samples beyond [−1, 1] are clipped. UserError when the file cannot be written."""
-    try:
-        with Path(path).open("wb") as file, wave.open(file, "wb") as wav:
-            wav.setnchannels(1)
-            wav.setsampwidth(2)
-            wav.setframerate(audio.rate)
-            wav.writeframes(to_int16(audio.samples).tobytes())
-    except OSError as error:
-        raise UserError(f"{path} cannot be written: {error.strerror}. Choose another folder.") from None
+    """16-bit mono, written atomically; samples beyond [−1, 1] are clipped. UserError when that fails."""
+    out = io.BytesIO()
+    with wave.open(out, "wb") as wav:
+        wav.setnchannels(1)
+        wav.setsampwidth(2)
+        wav.setframerate(audio.rate)
+        wav.writeframes(to_int16(audio.samples).tobytes())
+    write_atomically(path, out.getvalue())
 
 
 def read_wav(path: Path | str) -> Audio:

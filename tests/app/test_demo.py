@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from app import cli
+from app import cli, resources
 
 ROOT = Path(cli.__file__).parents[1]
 
@@ -29,7 +29,7 @@ def test_without_a_display_the_demo_sentence_is_spoken_into_files(tmp_path: Path
     done = start(tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
     said, how = done.stdout.splitlines()
-    assert cli.DEMO_SENTENCE in said
+    assert resources.DEMO_SENTENCE in said
     assert "lipstitch-out/" in said
     assert "xvfb-run python3 run.py" in how
     out = tmp_path / "lipstitch-out"

@@ -233,9 +233,7 @@ def test_a_newer_file_is_shown_but_never_written(document: Document, tmp_path: P
 
 def test_unknown_fields_survive_open_edit_save(document: Document, tmp_path: Path) -> None:
     path = tmp_path / "set.json"
-    opened(
-        document, '{"schema": "lipstitch.CurveSet.1", "team": ["Ann"], "bigrams": {"f-ah": {"author": "Bo"}}}', path
-    )
+    opened(document, '{"schema": "lipstitch.CurveSet.1", "team": ["Ann"], "bigrams": {"f-ah": {"author": "Bo"}}}', path)
     document.edit_curves(F_AH, {"open": HIGH}, "Move key")
     document.change_settings(Settings.smartbody(), "Preset SmartBody")
     document.save()

@@ -42,6 +42,7 @@ def test_defaults_where_nothing_was_put(tmp_path: Path, qtbot: QtBot) -> None:
     assert state.texts("x") == []
 
 
+@pytest.mark.qt_log_ignore("QVariant::load: unable", "Trying to construct an instance of an invalid type")
 @pytest.mark.parametrize(
     "data",
     [

@@ -144,7 +144,8 @@ def test_cyan_is_never_above_yellow_and_the_first_pose_is_untouched(schedule, cu
     stages = run(schedule, curve_set, settings)
     for pose in curve_set.poses:
         t = np.concatenate((stages.yellow[pose].t, stages.cyan[pose].t))
-        assert (stages.cyan[pose].at(t) <= stages.yellow[pose].at(t) + 1e-6).all()
+        around = [stages.yellow[pose].at(t + shift) for shift in (-2e-8, 0, 2e-8)]  # a step may stand that far off
+        assert (stages.cyan[pose].at(t) <= np.max(around, axis=0) + 1e-6).all()
         if pose not in settings.clashes:
             assert stages.cyan[pose].t == pytest.approx(stages.yellow[pose].t, abs=1e-8)
             assert np.array_equal(stages.cyan[pose].v, stages.yellow[pose].v)

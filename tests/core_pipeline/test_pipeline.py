@@ -203,7 +203,10 @@ def test_poses_do_not_influence_each_other_before_cyan(schedule, curve_set, sett
 
 
 def reach(stages: Stages, spans, settings: Settings) -> list[tuple[float, float]]:
-    """The spans widened by every window that touches them: a fill between two peaks may decide about the next."""
+    """The spans widened by every window and plateau that touches them.
+
+    A fill between two peaks may decide about the next one, and whether a plateau is a peak is decided at both its ends.
+    """
     widened = []
     for span in spans:
         begin, end = span
@@ -211,10 +214,15 @@ def reach(stages: Stages, spans, settings: Settings) -> list[tuple[float, float]
         while touched:
             touched = False
             for pose in POSES:
-                window, peaks = settings.window_of(pose) + 1e-6, stages.blue[pose].t
-                near = peaks[(peaks >= begin - window) & (peaks <= end + window)]
-                if near.size and (near[0] < begin or near[-1] > end):
-                    begin, end, touched = min(begin, near[0]), max(end, near[-1]), True
+                window, track = settings.window_of(pose) + 1e-6, stages.blue[pose]
+                near = (track.t >= begin - window) & (track.t <= end + window)
+                flat = (np.abs(np.diff(track.v)) < 1e-9) & (track.v[1:] > 0)
+                flat &= (track.t[1:] >= begin - window) & (track.t[:-1] <= end + window)
+                near[1:] |= flat
+                near[:-1] |= flat
+                found = track.t[near]
+                if found.size and (found[0] < begin or found[-1] > end):
+                    begin, end, touched = min(begin, found[0]), max(end, found[-1]), True
         widened.append((begin, end))
     return widened
 

@@ -5,21 +5,27 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core_pipeline.faces.face import Face
 from core_pipeline.faces.normals import VertexNormals, seam_groups
 from core_pipeline.faces.sculpt.character import Character
 from core_pipeline.faces.sculpt.eyes import eyes
 from core_pipeline.faces.sculpt.hair import hair
+from core_pipeline.faces.sculpt.lashes import lashes
 from core_pipeline.faces.sculpt.lids import LID
 from core_pipeline.faces.sculpt.mouth import Lips
 from core_pipeline.faces.sculpt.piece import Piece
-from core_pipeline.faces.sculpt.sdf import Blob, Solid
+from core_pipeline.faces.sculpt.sdf import Array, Blob, Solid, smoothstep
 from core_pipeline.faces.sculpt.skin import Skin
+from core_pipeline.faces.sculpt.sky import sky
 from core_pipeline.faces.sculpt.teeth import teeth
 from core_pipeline.faces.sculpt.tongue import tongue
 from core_pipeline.faces.sculpt.trimmings import body, brows, ears
 
+UNSHADED = ("mouth", "lips", "teeth", "gums", "tongue", "eye", "glint", "lid", "lash")
+FLESH = np.array([0.8, 1.1, 1.2])  # shade on skin is warm
+Colours = NDArray[np.float32]
 IDLE = ("blink", "browUp")
 
 
@@ -39,6 +45,7 @@ def pieces(character: Character) -> list[Piece]:
         *teeth(character, lips.centre),
         tongue(character, lips.centre),
         *eyes(character),
+        *lashes(character),
         *brows(character, scalp),
         hair(character, scalp),
         *ears(character),
@@ -56,6 +63,8 @@ def assemble(character: Character, made: list[Piece]) -> Face:
     triangles, parts = _triangles_and_parts(made)
     normals = VertexNormals(triangles, seam_groups(positions))
     rest = normals.of(positions)
+    if character.sky:
+        colours = _shaded(character, colours, sky(positions, rest, triangles), triangles, parts)
     normal_deltas = np.stack([normals.of(positions + delta) - rest for delta in deltas])
     return Face(
         name=character.name,
@@ -71,6 +80,24 @@ def assemble(character: Character, made: list[Piece]) -> Face:
         parts=parts,
         camera=character.camera,
     )
+
+
+def _shaded(
+    character: Character,
+    colours: Colours,
+    free: Array,
+    triangles: NDArray[np.uint32],
+    parts: Mapping[str, tuple[int, int]],
+) -> Colours:
+    """Colours under the hair's and the brows' shade; what moves into the light (mouth, eyes, lids) keeps its own."""
+    outside = np.ones(len(colours), bool)
+    for name, (first, count) in parts.items():
+        if name.startswith(UNSHADED):
+            outside[triangles[first : first + count]] = False
+    dark = (1 - character.sky * (1 - smoothstep(0.0, 0.85, free)))[:, None] ** FLESH
+    shaded = colours.copy()
+    shaded[outside, :3] *= dark[outside].astype(np.float32)
+    return shaded
 
 
 def _delta(made: list[Piece], shape: str) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:

@@ -16,7 +16,7 @@ Pair = tuple[float, float]
 
 @dataclass(frozen=True)
 class Mouth:
-    """The lips at rest, and what lies behind them."""
+    """The lips at rest, and what lies behind them; `rim` is how high each lip is at least, also at the corners."""
 
     height: float = -0.42
     half_width: float = 0.36
@@ -27,6 +27,7 @@ class Mouth:
     lower_depth: float = 0.05
     lap: float = 0.02
     bow: float = 1.0
+    rim: float = 0.026
     corner_jaw: float = 0.36
     hinge: Point = (0.0, -0.10, -0.05)
     bag: tuple[float, float, float] = (0.40, 0.24, 0.62)
@@ -98,7 +99,15 @@ class MouthPose:
 
 @dataclass(frozen=True)
 class Eyes:
-    """Right eye; the left one is its mirror image. Lid heights and half width in eye radii."""
+    """Right eye; the left one is its mirror image. Lid heights, half width and lash length in eye radii.
+
+    skew     of the upper and lower lid: + has its peak nearer to the temple, − nearer to the nose
+    pointed  shape of the corners: 1 is an ellipse's, more is narrower
+    spread   how much farther than to the sides the rings of the mesh round a narrow eye reach up and down
+    crease   how deep the fold above the upper lid is drawn, 0…1
+    shut     where a blink's lids meet: 0 at the lower lid's edge, 1 at the upper one's
+    lashes   single lashes on each upper lid
+    """
 
     centre: Point = (0.325, 0.17, 0.62)
     radius: float = 0.27
@@ -112,6 +121,13 @@ class Eyes:
     pupil: float = 16.0
     iris_colour: Point = (0.20, 0.45, 0.60)
     lash: float = 1.0
+    skew: Pair = (0.0, 0.0)
+    pointed: float = 1.1
+    spread: float = 0.0
+    crease: float = 0.0
+    shut: float = 0.36
+    lashes: int = 0
+    lash_length: float = 0.3
 
 
 @dataclass(frozen=True)
@@ -138,8 +154,32 @@ class Lock:
 
 
 @dataclass(frozen=True)
+class Sheet:
+    """A layer of hair between guide strands: each is a line of points in space from root to tip, all equally many.
+
+    The guides go from the face to the back of the head. `height` is the least distance from the scalp, `thickness`
+    of the layer, `clumps` how many strands it shows, `ragged` how much their tips differ (part of their length),
+    `wave` how far they swing to the sides and `waves` how often.
+    """
+
+    guides: tuple[tuple[Point, ...], ...]
+    thickness: float = 0.06
+    height: float = 0.03
+    clumps: float = 7.0
+    ragged: float = 0.08
+    wave: float = 0.0
+    waves: float = 1.6
+    columns: int = 28
+    rows: int = 18
+    mirrored: bool = True
+
+
+@dataclass(frozen=True)
 class Hair:
-    """hairline: (azimuth from the front, angle from the crown); thickness over the scalp at front, top and back."""
+    """hairline: (azimuth from the front, angle from the crown); thickness over the scalp at front, top and back.
+
+    resolution  columns and rows of the cap; sheets and locks lie on it
+    """
 
     hairline: tuple[Pair, ...]
     crown: Point = (0.0, 0.84, -0.40)
@@ -150,6 +190,8 @@ class Hair:
     clumps: int = 11
     twist: float = 1.2
     locks: tuple[Lock, ...] = ()
+    sheets: tuple[Sheet, ...] = ()
+    resolution: tuple[int, int] = (76, 15)
 
 
 @dataclass(frozen=True)
@@ -193,7 +235,13 @@ class Palette:
 
 @dataclass(frozen=True)
 class Character:
-    """One face of ours: `poses` become its blendshapes, beside blink and browUp."""
+    """One face of ours: `poses` become its blendshapes, beside blink and browUp.
+
+    middle    from where the clay is cast into skin; nose: its tip, which the mesh is finer round
+    nostrils  the right one, drawn dark
+    density   of the skin's mesh: 2 halves the distance between vertices
+    sky       0…1 how much of the shade that hair, brow and chin throw is baked into the colours
+    """
 
     name: str
     title: str
@@ -205,11 +253,14 @@ class Character:
     teeth: Dentition = Dentition()
     eyes: Eyes = Eyes()
     brows: Brows = Brows()
-    ears: Ears = Ears()
+    ears: Ears | None = Ears()
     body: Body = Body()
     palette: Palette = Palette()
     camera: Camera = field(default_factory=Camera)
     middle: Point = (0.0, -0.12, 0.05)
     nose: Point = (0.0, -0.10, 0.97)
+    nostrils: Point | None = None
     lip_columns: int = 80
+    density: float = 1.0
+    sky: float = 0.0
     pose_map: Mapping[str, Mapping[str, float]] = field(default_factory=dict)

@@ -6,10 +6,10 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from core_pipeline.faces.sculpt.character import Character, Lock
+from core_pipeline.faces.sculpt.hair_sheet import sheet
 from core_pipeline.faces.sculpt.piece import Piece, Triangles, fan, grid, linear
 from core_pipeline.faces.sculpt.sdf import Array, Solid, smoothstep
 
-AROUND, UP = 76, 15
 LOCK_ROWS, LOCK_SIDES = 12, 8
 
 
@@ -36,6 +36,8 @@ def hair(character: Character, clay: Solid) -> Piece:
     """The whole of the hair; it stays still in every pose."""
     scalp = Scalp(character, clay)
     parts = [_cap(character, scalp), *(_lock(lock, scalp) for lock in character.hair.locks)]
+    for layer in character.hair.sheets:
+        parts += sheet(layer, clay)
     triangles, first = [], 0
     for points, part_triangles, _ in parts:
         triangles.append(part_triangles + first)
@@ -50,11 +52,12 @@ def hair(character: Character, clay: Solid) -> Piece:
 
 def _cap(character: Character, scalp: Scalp) -> tuple[Array, Triangles, Array]:
     style = character.hair
-    azimuth = np.linspace(-180, 180, AROUND, endpoint=False)
+    columns, rows = style.resolution
+    azimuth = np.linspace(-180, 180, columns, endpoint=False)
     known = np.array(style.hairline)
     line = PchipInterpolator(known[:, 0], known[:, 1])(np.abs(azimuth))
     # rows bunch at the hairline, where the hair's rounded edge is
-    t = np.linspace(0, 1, UP) ** 1.5
+    t = np.linspace(0, 1, rows) ** 1.5
     angle = line[None] * (1 - 0.985 * t[:, None])
     around = azimuth[None] + 0 * angle
     points, out = scalp.place(around, angle)
@@ -74,8 +77,8 @@ def _cap(character: Character, scalp: Scalp) -> tuple[Array, Triangles, Array]:
     points = points + swell[..., None] * np.array([0.10, 0.85, 0.45])
     light = 0.15 + 0.75 * ridge * smoothstep(0, 0.3, share) - 0.35 * smoothstep(0.2, 0.0, share)
     flat = np.concatenate([points.reshape(-1, 3), points[-1].mean(0)[None]])
-    last = (UP - 1) * AROUND + np.arange(AROUND)
-    triangles = np.concatenate([grid(UP, AROUND, closed=True), fan(last, len(flat) - 1)])
+    last = (rows - 1) * columns + np.arange(columns)
+    triangles = np.concatenate([grid(rows, columns, closed=True), fan(last, len(flat) - 1)])
     return flat, triangles, np.append(np.clip(light, 0, 1).ravel(), 0.5)
 
 

@@ -9,7 +9,6 @@ from core_pipeline.faces.sculpt.sdf import Array, smoothstep
 
 LID = 1.075
 COLUMNS = 38
-CLOSED_AT = 0.36
 CLEAR = 1.03
 REACH = 1.9
 
@@ -33,8 +32,13 @@ class Lid:
 
     def _almond(self, angle: Array) -> tuple[Array, Array]:
         p = self.eyes.half_width * np.cos(angle)
-        height = np.where(np.sin(angle) > 0, self.eyes.upper, self.eyes.lower)
-        return p, height * np.sign(np.sin(angle)) * np.abs(np.sin(angle)) ** 1.1 + self.eyes.slant * p
+        upper, lower = self.eyes.skew
+        height = np.where(
+            np.sin(angle) > 0,
+            self.eyes.upper * (1 + upper * np.cos(angle)),
+            self.eyes.lower * (1 + lower * np.cos(angle)),
+        )
+        return p, height * np.sign(np.sin(angle)) * np.abs(np.sin(angle)) ** self.eyes.pointed + self.eyes.slant * p
 
     def close(self, points: Array, share: Array) -> Array:
         """`points` (n, 3) with the lids shut; share (n,) 1 at the edge … 0 where the face stays still."""
@@ -45,7 +49,7 @@ class Lid:
         p = np.clip(unit[:, 0], -0.999 * eyes.half_width, 0.999 * eyes.half_width)
         angle = np.arccos(p / eyes.half_width)
         top, bottom = self._almond(angle)[1], self._almond(-angle)[1]
-        shut = bottom + CLOSED_AT * (top - bottom)
+        shut = bottom + eyes.shut * (top - bottom)
         is_upper = unit[:, 1] > (top + bottom) / 2
         edge = np.where(is_upper, top, bottom)
         depth = np.sqrt(np.clip(1 - p * p, 0.02, None))

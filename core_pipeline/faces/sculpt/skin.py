@@ -15,6 +15,7 @@ from core_pipeline.faces.sculpt.sdf import Array, Solid, smoothstep
 # sizes of the almonds round the eye: on the flat map; and (radius, size) of the lid's band inside the first of them
 EYE_RINGS = (1.14, 1.24, 1.36, 1.52, 1.74)
 BAND = ((LID, 1.065), (LID, 1.0), (1.035, 0.985), (0.94, 0.99))
+CREASE = 1.52  # where the upper lid folds, as a size of the almond
 EDGE = 1  # the row of the band that is the lid's edge
 
 
@@ -51,7 +52,9 @@ class Skin:
         rings = []
         for number, size in enumerate(EYE_RINGS):
             loop = self._to_map(self.lid.edge(steps + (number % 2) * np.pi / COLUMNS, size=EYE_RINGS[0]))
-            rings.append(loop.mean(0) + size / EYE_RINGS[0] * (loop - loop.mean(0)))
+            grow = size / EYE_RINGS[0] * np.ones(2)
+            grow[1] += self.character.eyes.spread * (grow[1] - 1)
+            rings.append(loop.mean(0) + grow * (loop - loop.mean(0)))
         border = self._to_map(self.lips.rest[-1])
         self._eye_loop = rings[0]
         eye = rings[0].mean(0)
@@ -62,7 +65,7 @@ class Skin:
             lids = np.maximum(np.linalg.norm(flat - eye, axis=1) - 0.5, 0)
             tip = np.maximum(np.linalg.norm(flat - nose, axis=1) - 0.16, 0)
             near: Array = np.minimum.reduce([0.045 + 0.10 * lips, 0.075 + 0.16 * lids, 0.034 + 0.20 * tip])
-            return np.clip(near, 0, 0.24)
+            return np.clip(near, 0, 0.24) / self.character.density
 
         return lay_out(border, rings, spacing)
 
@@ -98,7 +101,16 @@ class Skin:
         pull = (0.5 * loose * (0.25 + 0.75 * smoothstep(0.0, 0.14, np.abs(points[:, 0]))))[:, None]
         for _ in range(12):
             points = points + pull * (self.layout.neighbour_mean(points) - points)
-        return points
+        depth = 0.13 * self.character.eyes.crease * self.character.eyes.radius * self._crease(points)
+        away = points - centre
+        return points - away * (depth / np.linalg.norm(away, axis=1))[:, None]
+
+    def _crease(self, points: Array) -> Array:
+        """(layout points,) 1 in the fold above the upper lid."""
+        height = points[:, 1] - self.lid.centre[1]
+        across = np.abs(np.abs(points[:, 0]) - self.lid.centre[0]) / self.character.eyes.radius
+        fold: Array = np.exp(-(((self._ratio - CREASE) / 0.09) ** 2)) * smoothstep(0.0, 0.05, height)
+        return fold * smoothstep(1.15, 0.7, across)
 
     def _smoothed(self, values: Array) -> Array:
         """(layout points,) values without the grain of the mesh."""
@@ -266,6 +278,11 @@ class Skin:
         tone += 0.7 * lid * (linear(palette.lid) - tone)
         free = self._smoothed(self.clay.occlusion(self.face, self.clay.gradient(self.face)))[self._face_own]
         tone *= (0.74 + 0.26 * smoothstep(0.15, 0.75, free))[:, None] ** np.array([0.8, 1.1, 1.2])
+        fold = 0.55 * self.character.eyes.crease * self._crease(self.face)[self._face_own]
+        tone *= (1 - fold)[:, None] ** np.array([0.6, 1.0, 1.1])
+        if self.character.nostrils is not None:
+            away = np.linalg.norm(np.abs(own * (1, 0, 0)) + own * (0, 1, 1) - np.array(self.character.nostrils), axis=1)
+            tone *= (1 - 0.85 * np.exp(-((away / 0.03) ** 2)))[:, None] ** np.array([0.75, 1.1, 1.1])
         angle = 2 * np.pi * np.arange(COLUMNS) / COLUMNS
         upper = smoothstep(-0.15, 0.25, np.sin(angle)) * self.character.eyes.lash
         edge = linear(palette.lid) * 0.85 + upper[:, None] * (linear(palette.lash) - linear(palette.lid) * 0.85)

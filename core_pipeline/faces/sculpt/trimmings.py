@@ -44,8 +44,10 @@ def _brow(character: Character, clay: Solid, lift: float) -> tuple[Array, Triang
 
 
 def ears(character: Character) -> list[Piece]:
-    """A bowl with a rolled rim on each side."""
+    """A bowl with a rolled rim on each side; none under hair that hides them."""
     shape = character.ears
+    if shape is None:
+        return []
     wide, high = shape.size
     turn = 2 * np.pi * np.arange(EAR_AROUND) / EAR_AROUND
     # (distance from the middle of the bowl, how far it stands off the head), from inside to the root behind

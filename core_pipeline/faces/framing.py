@@ -1,0 +1,108 @@
+"""Where to look from, and which way a rig faces: found in the mesh and its shapes, in any unit."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core_pipeline.faces.face import Camera, Face, Floats
+
+_FOV = 24.0
+#: Height of the picture in heights of what moves: brow to chin is about two thirds of a head.
+_AROUND = 0.9
+#: Vertices that move less than this part of the largest motion do not tell where the face is.
+_MOVES = 0.05
+_LONGER = 1.15
+
+
+def frame(positions: Floats) -> Camera:
+    """A camera that shows all of a mesh from the front."""
+    return _camera(positions.min(0).astype(float), positions.max(0).astype(float))
+
+
+def head_camera(face: Face) -> Camera:
+    """A camera that shows the head: where the shapes move the mesh, and as much again, within the mesh."""
+    moved = _moving(face)
+    if not moved.any():
+        return frame(face.positions)
+    inside = face.positions[moved].astype(float)
+    low, high = inside.min(0), inside.max(0)
+    around = _AROUND * max(*(high - low)[:2], 1e-9)
+    centre = (low + high) / 2
+    mesh_low, mesh_high = face.positions.min(0).astype(float), face.positions.max(0).astype(float)
+    return _camera(np.maximum(centre - around, mesh_low), np.minimum(centre + around, mesh_high))
+
+
+def head_height(face: Face) -> float:
+    """Height of the head, in the mesh's unit: of all that stands around what moves."""
+    return float(np.ptp(_near(face, _core(face))[:, 1]))
+
+
+def turned_upright(face: Face) -> tuple[Face, tuple[str, ...]]:
+    """The face with +y up and looking along +z, and what had to be done for that.
+
+    Rigs exported with +z up lie on their back: higher in z than in y, and their shapes move them along z more than
+    along y. VRM 0 avatars look backwards: what moves lies behind the middle of the head.
+    """
+    notes: list[str] = []
+    moved = _moving(face)
+    if not moved.any():
+        return face, ()
+    if _lies(face, moved):
+        face = _turned(face, np.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]], np.float32))
+        notes.append("The rig was made with z up: it is shown turned upright.")
+    if _looks_back(face, moved):
+        face = _turned(face, np.array([[-1, 0, 0], [0, 1, 0], [0, 0, -1]], np.float32))
+        notes.append("The rig looked backwards: it is shown turned round.")
+    return face, tuple(notes)
+
+
+def _camera(low: NDArray[np.float64], high: NDArray[np.float64]) -> Camera:
+    x, y, z = ((low + high) / 2).tolist()
+    size = float((high - low)[:2].max()) or float((high - low).max()) or 1.0
+    # The nearest point is before the middle, and larger for that.
+    distance = 0.56 * size / np.tan(np.radians(_FOV / 2)) + 0.25 * float((high - low)[2])
+    return Camera(target=(x, y, z), distance=float(distance), fov=_FOV)
+
+
+def _moving(face: Face) -> NDArray[np.bool_]:
+    """(n,) whether a vertex moves noticeably in some shape."""
+    furthest = np.zeros(len(face.positions), np.float32)
+    for delta in face.deltas:
+        np.maximum(furthest, np.einsum("ij,ij->i", delta, delta), out=furthest)
+    return furthest > _MOVES**2 * furthest.max(initial=0.0)
+
+
+def _lies(face: Face, moved: NDArray[np.bool_]) -> bool:
+    """Whether z is up."""
+    _, y, z = np.ptp(_near(face, moved), axis=0)
+    along = np.abs(face.deltas).sum(axis=(0, 1))
+    return bool(z > _LONGER * y and along[2] > along[1])
+
+
+def _looks_back(face: Face, moved: NDArray[np.bool_]) -> bool:
+    near = _near(face, moved)
+    low, high = near[:, 2].min(), near[:, 2].max()
+    weights = np.sqrt(np.einsum("kij,kij->i", face.deltas, face.deltas))
+    middle = float(np.average(face.positions[:, 2], weights=weights))
+    return bool(middle < low + 0.4 * (high - low))
+
+
+def _near(face: Face, moved: NDArray[np.bool_]) -> Floats:
+    """The vertices around what moves: the head, without the body of an avatar."""
+    inside = face.positions[moved]
+    centre, reach = (inside.min(0) + inside.max(0)) / 2, np.ptp(inside, axis=0).max()
+    near: Floats = face.positions[(np.abs(face.positions - centre) <= reach).all(axis=1)]
+    return near
+
+
+def _turned(face: Face, turn: Floats) -> Face:
+    return replace(
+        face,
+        positions=face.positions @ turn.T,
+        normals=face.normals @ turn.T,
+        deltas=face.deltas @ turn.T,
+        normal_deltas=face.normal_deltas @ turn.T,
+    )

@@ -1,0 +1,186 @@
+"""A face from a folder of .obj files: one neutral, and one file per pose with the same vertices and faces.
+
+Only `v` and `f` lines count. General mesh readers split vertices where texture coordinates differ, and then
+the files no longer correspond; this one keeps every vertex at its own number.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core_pipeline.errors import UserError
+from core_pipeline.faces.face import Face, Floats
+from core_pipeline.faces.framing import frame
+from core_pipeline.faces.limits import LARGEST, MAX_FILE, MAX_MORPH_BYTES, MAX_VERTICES
+from core_pipeline.faces.normals import VertexNormals, seam_groups
+from core_pipeline.faces.retarget import normalised
+from core_pipeline.files.atomic import read_bytes
+from core_pipeline.files.json_text import shown
+
+MAX_POSES = 1000
+MAX_LINES = 12_000_000
+SKIN = (0.62, 0.42, 0.34, 0.35)
+
+_NEUTRAL = frozenset({"neutral", "rest", "base", "basis", "default", "neutralpose", "restpose"})
+_AFTER_SLASH = re.compile(rb"/\S*")
+_NEWLINE, _SPACE, _TAB = 10, 32, 9
+
+Ints = NDArray[np.int64]
+Cancelled = Callable[[], bool]
+
+
+def read_obj_folder(folder: Path, cancelled: Cancelled = lambda: False) -> tuple[Face, tuple[str, ...]]:
+    """The face in a folder, and notes about it.
+
+    UserError when there is no neutral, a file is damaged or too large, or a pose has other vertices or faces than
+    the neutral. `cancelled` is asked before every file.
+    """
+    paths = sorted(path for path in folder.iterdir() if path.suffix.casefold() == ".obj" and path.is_file())
+    neutral = _neutral(folder, paths)
+    poses = [path for path in paths if path != neutral]
+    if not poses:
+        raise UserError(f"{folder}: there are no poses beside {neutral.name}; export one .obj per pose.")
+    if len(poses) > MAX_POSES:
+        raise UserError(f"{folder}: {len(poses):,} .obj files are more than {MAX_POSES:,}; keep the poses only.")
+    base = _Obj(neutral)
+    count = len(base.vertices)
+    if count * len(poses) * 24 > MAX_MORPH_BYTES:
+        raise UserError(f"{folder}: {count:,} vertices × {len(poses)} poses need more than 1 GB; reduce the mesh.")
+    triangles = base.triangles()
+    deltas = np.zeros((len(poses), count, 3), np.float32)
+    for row, path in enumerate(poses):
+        if cancelled():
+            raise UserError(f"{folder}: opening was cancelled.")
+        deltas[row] = _Obj(path).vertices_like(base) - base.vertices
+    positions = base.vertices.astype(np.float32)
+    normals, normal_deltas = light(positions, triangles, deltas)
+    face = Face(
+        name=folder.name,
+        title=folder.name,
+        positions=positions,
+        normals=normals,
+        triangles=triangles,
+        colours=np.tile(np.array(SKIN, np.float32), (count, 1)),
+        shapes=tuple(path.stem for path in poses),
+        deltas=deltas,
+        normal_deltas=normal_deltas,
+        parts={folder.name: (0, len(triangles))},
+        camera=frame(positions),
+    )
+    return face, ()
+
+
+def light(positions: Floats, triangles: NDArray[np.uint32], deltas: Floats) -> tuple[Floats, Floats]:
+    """Normals (n, 3) at rest, and what each shape (k, n, 3) adds to them."""
+    normals = VertexNormals(triangles, seam_groups(positions))
+    rest = normals.of(positions)
+    turned = np.zeros_like(deltas)
+    for shape, delta in enumerate(deltas):
+        if delta.any():
+            turned[shape] = normals.of(positions + delta) - rest
+    return rest, turned
+
+
+def _neutral(folder: Path, paths: list[Path]) -> Path:
+    exact = [path for path in paths if normalised(path.stem) in _NEUTRAL]
+    found = exact or [path for path in paths if "neutral" in path.stem.casefold()]
+    if len(found) == 1:
+        return found[0]
+    if found:
+        names = " and ".join(shown(path.name) for path in found[:2])
+        raise UserError(f"{folder}: both {names} could be the neutral face; keep one of them.")
+    raise UserError(
+        f"{folder}: none of its {len(paths)} .obj files is the neutral face; name the face at rest neutral.obj."
+    )
+
+
+class _Obj:
+    """One file: `vertices` (n, 3); its faces are read only when asked for."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        raw = read_bytes(path, MAX_FILE, "mesh")
+        if b"\\" in raw:  # a line goes on after a backslash
+            raw = raw.replace(b"\\\r\n", b" ").replace(b"\\\n", b" ")
+        if b"\n" not in raw:
+            raw = raw.replace(b"\r", b"\n")
+        self._raw = raw if raw.endswith(b"\n") else raw + b"\n"
+        if self._raw.count(b"\n") > MAX_LINES:
+            raise self.fail(f"it has more than {MAX_LINES:,} lines; reduce the mesh.")
+        self._bytes = np.frombuffer(self._raw, np.uint8)
+        self._starts = np.concatenate([[0], np.flatnonzero(self._bytes == _NEWLINE) + 1])
+        self.vertices = self._vertices()
+        self._faces = self._lines(b"f")
+        del self._raw, self._bytes, self._starts
+
+    def fail(self, what: str) -> UserError:
+        """The error to raise about this file."""
+        return UserError(f"{self.path}: {what}")
+
+    def vertices_like(self, base: _Obj) -> NDArray[np.float64]:
+        """The vertices, once it is sure that they are the same points of the same surface as `base`'s."""
+        if len(self.vertices) != len(base.vertices):
+            raise self.fail(
+                f"it has {len(self.vertices):,} vertices, {base.path.name} has {len(base.vertices):,}; "
+                "export all poses of one mesh, with the order of vertices kept."
+            )
+        if self._faces != base._faces and not np.array_equal(self.triangles(), base.triangles()):
+            raise self.fail(f"its faces are not those of {base.path.name}; export all poses of one mesh.")
+        return self.vertices
+
+    def triangles(self) -> NDArray[np.uint32]:
+        """(m, 3): polygons cut into fans."""
+        plain = _AFTER_SLASH.sub(b"", self._faces).replace(b"\t", b" ")
+        sizes = np.array([len(line.split()) for line in plain.split(b"\n") if line.strip()], np.int64)
+        corners = self._numbers(plain, "faces").astype(np.int64)
+        if not len(sizes) or sizes.min() < 3 or sizes.sum() != len(corners):
+            raise self.fail("it has no faces, or some with fewer than three corners; export it as a mesh.")
+        count = len(self.vertices)
+        corners = np.where(corners < 0, corners + count, corners - 1)
+        if corners.min() < 0 or corners.max() >= count:
+            raise self.fail(f"a face uses a vertex that is not among its {count:,}; the file is damaged.")
+        return _fans(corners, sizes).astype(np.uint32)
+
+    def _vertices(self) -> NDArray[np.float64]:
+        text = self._lines(b"v")
+        rows = text.count(b"\n")
+        if rows > MAX_VERTICES:
+            raise self.fail(f"it has {rows:,} vertices, more than {MAX_VERTICES:,}; reduce the mesh.")
+        numbers = self._numbers(text, "vertices")
+        width = len(numbers) // rows if rows else 0
+        if width not in (3, 4, 6, 7) or len(numbers) != rows * width:
+            raise self.fail("its vertices are not three numbers each; the file is damaged or no .obj mesh.")
+        vertices = numbers.reshape(rows, width)[:, :3]
+        if not (np.abs(vertices) <= LARGEST).all():
+            raise self.fail(f"a vertex is not a number, or above {LARGEST:,.0f}; export it in metres or centimetres.")
+        return vertices
+
+    def _numbers(self, text: bytes, what: str) -> NDArray[np.float64]:
+        try:
+            return np.fromstring(text, np.float64, sep=" ")  # text only: the quickest parser there is
+        except ValueError:
+            raise self.fail(f"its {what} hold something that is no number; the file is damaged.") from None
+
+    def _lines(self, key: bytes) -> bytes:
+        """What follows the key on all lines that begin with it, one line each."""
+        raw, starts = self._bytes, self._starts
+        second = raw[np.minimum(starts[:-1] + 1, len(raw) - 1)]
+        wanted = (raw[starts[:-1]] == key[0]) & ((second == _SPACE) | (second == _TAB))
+        edges = np.flatnonzero(np.diff(np.concatenate([[False], wanted, [False]])))
+        runs = [self._raw[starts[a] : starts[b]] for a, b in edges.reshape(-1, 2)]
+        return b"".join(runs).replace(key, b" ")
+
+
+def _fans(corners: Ints, sizes: Ints) -> Ints:
+    """Polygons of `sizes` corners, one after the other → (m, 3)."""
+    first = np.cumsum(sizes) - sizes
+    each = sizes - 2
+    owner = np.repeat(np.arange(len(sizes)), each)
+    step = np.arange(len(owner)) - np.repeat(np.cumsum(each) - each, each)
+    start = first[owner]
+    return np.stack([corners[start], corners[start + step + 1], corners[start + step + 2]], -1)

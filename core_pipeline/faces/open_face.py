@@ -1,0 +1,156 @@
+"""Any face a user brings, opened: read, put upright, looked at from the front, its shapes matched to the poses."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from core_pipeline.errors import UserError
+from core_pipeline.faces import face_folder, rig_cache
+from core_pipeline.faces.face import Face
+from core_pipeline.faces.framing import head_camera, head_height, turned_upright
+from core_pipeline.faces.glb import read_glb
+from core_pipeline.faces.mapping_json import load_mapping, mapping_path
+from core_pipeline.faces.obj_folder import read_obj_folder
+from core_pipeline.faces.retarget import OWN_NAMES, Mix, Preset, Retarget, best
+from core_pipeline.files.atomic import reason
+from core_pipeline.files.json_text import shown
+from core_pipeline.poses import FACEFX
+
+_NAMED = 4
+
+Cancelled = Callable[[], bool]
+Read = tuple[Face, tuple[str, ...]]
+
+
+@dataclass(frozen=True)
+class Opened:
+    """A face ready to be drawn, how its poses are made, and what is worth knowing, one sentence each."""
+
+    face: Face
+    retarget: Retarget
+    notes: tuple[str, ...] = ()
+
+
+def open_face(
+    path: Path,
+    presets: Iterable[Preset],
+    poses: Sequence[str] = FACEFX,
+    cache: Path | None = None,
+    cancelled: Cancelled = lambda: False,
+) -> Opened:
+    """The face at `path`: a folder of ours, a .glb, .gltf or .vrm file, or a folder of .obj poses.
+
+    presets    naming conventions to try, when no mapping is saved beside the rig and none comes with it
+    poses      the pose set of the curves that shall play
+    cache      folder in which rigs are kept as read, for the next time
+    cancelled  asked now and then; True ends it with a UserError
+    UserError when there is nothing to open, or it is damaged, or too large.
+    """
+    ours = path.is_dir() and (path / "face.glb").is_file()
+    if ours:
+        face, notes = face_folder.load(path), ()
+    else:
+        face, notes = _rig(path, cache, cancelled)
+    retarget = _retarget(path, face, presets, poses, ours)
+    face = replace(face, pose_map=retarget.poses)
+    return Opened(face, retarget, (*notes, *retarget.notes, *_still_poses(face, retarget.poses)))
+
+
+def _rig(path: Path, cache: Path | None, cancelled: Cancelled) -> Read:
+    kept = rig_cache.recall(path, cache) if cache is not None else None
+    if kept is not None:
+        return kept
+    face, files, notes = _read(path, cancelled)
+    if cancelled():
+        raise UserError(f"{path}: opening was cancelled.")
+    face, turned = turned_upright(face)
+    face = replace(face, camera=head_camera(face))
+    notes = (*notes, *turned, *_health(face))
+    if cache is not None:
+        rig_cache.keep(path, files, face, notes, cache)
+    return face, notes
+
+
+def _read(path: Path, cancelled: Cancelled) -> tuple[Face, list[Path], tuple[str, ...]]:
+    """The face, the files it was read from, and notes."""
+    if path.is_dir():
+        files = _obj_files(path)
+        if not files:
+            raise UserError(f"{path}: there is neither a face.glb nor any .obj file; choose a folder of poses.")
+        face, notes = read_obj_folder(path, cancelled)
+        return face, [path, *files], notes
+    kind = path.suffix.casefold()
+    if kind == ".obj":
+        raise UserError(f"{path}: one .obj has no poses; choose its folder, with one .obj per pose.")
+    if kind not in (".glb", ".gltf", ".vrm") and path.is_file():
+        raise UserError(f"{path}: faces are .glb, .gltf or .vrm files or folders of .obj; export it as .glb.")
+    return read_glb(path), [path], ()
+
+
+def _obj_files(folder: Path) -> list[Path]:
+    try:
+        return sorted(path for path in folder.iterdir() if path.suffix.casefold() == ".obj")
+    except OSError as error:
+        raise UserError(f"Cannot read {folder}: {reason(error)}.") from error
+
+
+def _retarget(path: Path, face: Face, presets: Iterable[Preset], poses: Sequence[str], ours: bool) -> Retarget:
+    """The mapping saved beside the rig; else what comes with the face; else the preset that fits best."""
+    saved = load_mapping(path)
+    if saved is not None:
+        return _saved(face, *saved, poses, mapping_path(path))
+    if ours:
+        mixes = {pose: face.mix(pose) for pose in dict.fromkeys((*face.pose_map, *poses)) if face.mix(pose)}
+        return _settled(OWN_NAMES, "its own face.json", mixes, poses)
+    return best(face.shapes, presets, poses)
+
+
+def _saved(face: Face, preset: str, mixes: Mapping[str, Mix], poses: Sequence[str], path: Path) -> Retarget:
+    gone = sorted({shape for mix in mixes.values() for shape in mix} - set(face.shapes))
+    kept = {
+        pose: {shape: amount for shape, amount in mix.items() if shape in face.shapes} for pose, mix in mixes.items()
+    }
+    note = f"{path.name} uses shapes this face does not have ({_listed(gone)}): they are left out."
+    retarget = _settled(preset, f"saved in {path.name}", {pose: mix for pose, mix in kept.items() if mix}, poses)
+    return replace(retarget, notes=(note, *retarget.notes)) if gone else retarget
+
+
+def _settled(name: str, title: str, mixes: Mapping[str, Mix], poses: Sequence[str]) -> Retarget:
+    missing = tuple(pose for pose in poses if pose not in mixes)
+    notes = (f"Not available on this face: {', '.join(missing)}.",) if missing else ()
+    return Retarget(name, title, mixes, missing, notes)
+
+
+def _health(face: Face) -> tuple[str, ...]:
+    """What is odd about the shapes, though they can be played."""
+    largest = [float(np.sqrt(np.einsum("ij,ij->i", delta, delta).max(initial=0))) for delta in face.deltas]
+    head = head_height(face)
+    still = [shape for shape, motion in zip(face.shapes, largest, strict=True) if motion == 0]
+    wild = [shape for shape, motion in zip(face.shapes, largest, strict=True) if motion > head]
+    notes = []
+    if still:
+        notes.append(f"{_counted(still, 'shape moves', 'shapes move')} nothing: {_listed(still)}.")
+    if wild:
+        notes.append(
+            f"{_counted(wild, 'shape moves', 'shapes move')} farther than the head is high: {_listed(wild)}; "
+            "was it exported in another unit than the mesh?"
+        )
+    return tuple(notes)
+
+
+def _still_poses(face: Face, mixes: Mapping[str, Mix]) -> tuple[str, ...]:
+    moving = {shape for shape, delta in zip(face.shapes, face.deltas, strict=True) if delta.any()}
+    still = [pose for pose, mix in mixes.items() if not moving & set(mix)]
+    return (f"{_counted(still, 'pose moves', 'poses move')} nothing: {_listed(still)}.",) if still else ()
+
+
+def _counted(names: Sequence[str], one: str, many: str) -> str:
+    return f"{len(names)} {one if len(names) == 1 else many}"
+
+
+def _listed(names: Sequence[str]) -> str:
+    return ", ".join(shown(name) for name in names[:_NAMED]) + (" …" if len(names) > _NAMED else "")

@@ -1,0 +1,86 @@
+"""Woman: fair, with freckles and auburn hair to her shoulders."""
+
+from __future__ import annotations
+
+from core_pipeline.faces.face import Camera
+from core_pipeline.faces.sculpt.adult import POSES, REST
+from core_pipeline.faces.sculpt.character import (
+    Body,
+    Brows,
+    Character,
+    Dentition,
+    Eyes,
+    Hair,
+    Mouth,
+    Palette,
+    Sheet,
+)
+from core_pipeline.faces.sculpt.sdf import Blob
+
+CLAY = (
+    Blob((0, 0.40, -0.12), (0.75, 0.74, 0.88), 0.1),  # cranium
+    Blob((0, -0.26, 0.16), (0.53, 0.55, 0.60), 0.28),  # jaw
+    Blob((0.34, -0.07, 0.44), (0.25, 0.20, 0.26), 0.20, mirrored=True),  # cheekbones
+    Blob((0.24, -0.56, 0.28), (0.20, 0.18, 0.26), 0.26, mirrored=True),  # corners of the jaw
+    Blob((0, -0.42, 0.55), (0.27, 0.24, 0.26), 0.20),  # the round under nose and lips
+    Blob((0, -0.75, 0.58), (0.17, 0.15, 0.18), 0.24),  # chin
+    Blob((0.26, 0.37, 0.58), (0.22, 0.06, 0.10), 0.14, mirrored=True),  # brow
+    Blob((0.31, 0.16, 0.87), (0.16, 0.12, 0.16), 0.12, mirrored=True, carve=True),  # eye sockets
+    Blob((0, 0.08, 0.745), (0.052, 0.26, 0.11), 0.13),  # bridge of the nose
+    Blob((0, -0.115, 0.90), (0.062, 0.055, 0.075), 0.09),  # tip of the nose
+    Blob((0.072, -0.15, 0.825), (0.040, 0.042, 0.060), 0.05, mirrored=True),  # its wings
+    Blob((0, -0.28, 0.86), (0.018, 0.06, 0.05), 0.05, carve=True),  # the groove above the lip
+)
+
+HAIR = Hair(
+    hairline=((0, 72), (30, 73), (55, 82), (75, 104), (100, 118), (140, 130), (180, 134)),
+    front=0.035, top=0.035, back=0.04, quiff=0.0, resolution=(40, 8),
+    sheets=(
+        Sheet(
+            guides=(
+                ((0.05, 0.92, 0.56), (0.36, 0.84, 0.56), (0.64, 0.42, 0.47), (0.66, -0.10, 0.42), (0.76, -0.62, 0.34), (0.58, -1.10, 0.42)),
+                ((0.03, 1.12, 0.24), (0.44, 1.04, 0.26), (0.84, 0.50, 0.16), (0.84, -0.15, 0.10), (0.92, -0.72, 0.10), (0.74, -1.25, 0.20)),
+                ((0.01, 1.22, -0.20), (0.46, 1.10, -0.22), (0.88, 0.50, -0.32), (0.88, -0.20, -0.36), (0.92, -0.80, -0.34), (0.76, -1.32, -0.20)),
+                ((0.00, 1.08, -0.62), (0.34, 0.98, -0.74), (0.60, 0.45, -0.94), (0.62, -0.25, -0.90), (0.64, -0.85, -0.80), (0.52, -1.36, -0.58)),
+                ((-0.06, 0.86, -0.92), (-0.04, 0.72, -1.02), (-0.04, 0.30, -1.14), (-0.04, -0.25, -1.10), (-0.04, -0.85, -1.00), (-0.04, -1.38, -0.78)),
+            ),
+            thickness=0.11, clumps=10, columns=36, rows=17, wave=0.035,
+        ),
+    ),
+)  # fmt: skip
+
+WOMAN = Character(
+    name="woman",
+    title="Woman",
+    clay=CLAY,
+    poses=POSES,
+    hair=HAIR,
+    rest_tongue=REST,
+    mouth=Mouth(
+        height=-0.44, half_width=0.26, smile=0.03, upper=0.034, lower=0.050, upper_depth=0.020, lower_depth=0.026,
+        lap=0.03, bow=1.5, rim=0.013, hinge=(0.0, -0.12, -0.08), bag=(0.32, 0.20, 0.55),
+    ),
+    teeth=Dentition(half_width=0.245, depth=0.36, behind_lips=0.08, edge=-0.022, upper_height=0.115, lower_height=0.10),
+    eyes=Eyes(
+        centre=(0.295, 0.17, 0.525), radius=0.21, half_width=0.88, upper=0.47, lower=0.33, slant=0.05, yaw=10,
+        skew=(-0.06, 0.12), iris=28, pupil=11.5, spread=1.0, shut=0.16, iris_colour=(0.30, 0.46, 0.24), crease=0.8, lashes=22, lash_length=0.22,
+    ),
+    brows=Brows(
+        line=((0.11, 0.245, 0.016), (0.20, 0.275, 0.024), (0.31, 0.305, 0.022), (0.41, 0.29, 0.015), (0.49, 0.235, 0.006)),
+        lift=0.06,
+    ),
+    ears=None,
+    body=Body(neck=0.27, middle=-0.20, collar=-1.32),
+    palette=Palette(
+        skin=(0.95, 0.76, 0.66), lip=(0.82, 0.44, 0.42), lid=(0.86, 0.60, 0.52), hair=(0.34, 0.13, 0.06),
+        hair_light=(0.62, 0.29, 0.13), brow=(0.38, 0.19, 0.11), lash=(0.10, 0.05, 0.04), shirt=(0.30, 0.34, 0.55),
+        shirt_trim=(0.30, 0.34, 0.55),
+    ),
+    camera=Camera(target=(0.0, 0.0, 0.0), distance=7.2, yaw=0.0, pitch=0.0, fov=24.0),
+    middle=(0.0, -0.34, 0.0),
+    nose=(0.0, -0.14, 0.90),
+    nostrils=(0.042, -0.185, 0.885),
+    lip_columns=72,
+    density=1.12,
+    sky=0.75,
+)  # fmt: skip
