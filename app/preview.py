@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import replace
 
 import numpy as np
@@ -20,6 +21,8 @@ from .session import Session
 
 #: A bigram plays over this long by default, in seconds (two phones of average length).
 BIGRAM_SECONDS = 0.4
+#: While a key is dragged the face is drawn this often: software OpenGL takes every core, and the hand comes first.
+GESTURE_SECONDS = 0.04
 
 
 class Preview(QObject):
@@ -58,8 +61,8 @@ class Preview(QObject):
         self.worker.failed.connect(self.failed)
         self._turn = QTimer(self)  # many causes in one turn of the event loop, one picture
         self._turn.setSingleShot(True)
-        self._turn.setInterval(0)
         self._turn.timeout.connect(self._show)
+        self._asked = 0.0  # when the face was last asked for, on the monotonic clock
         session.stages_changed.connect(self.refresh)
         self.player.time_changed.connect(self._sentence_time)
         self.bigram_player.time_changed.connect(self._bigram_time_changed)
@@ -184,9 +187,10 @@ class Preview(QObject):
         self.refresh()
 
     def refresh(self) -> None:
-        """Draw again at the next turn of the event loop."""
+        """Draw again at the next turn of the event loop; during a gesture the hand comes first."""
         if not self._turn.isActive():
-            self._turn.start()
+            wait = GESTURE_SECONDS - (time.monotonic() - self._asked) if self._session.in_gesture else 0.0
+            self._turn.start(max(0, round(wait * 1000)))
 
     @property
     def milliseconds(self) -> float:
@@ -201,7 +205,7 @@ class Preview(QObject):
     def _sentence_time(self, seconds: float) -> None:
         self.sentence_moment.emit(seconds)
         if self._bigram_time is None:
-            self._show()
+            self.refresh() if self._session.in_gesture else self._show()
 
     def _bigram_time_changed(self, seconds: float) -> None:
         if not self.bigram_player.playing:
@@ -221,6 +225,7 @@ class Preview(QObject):
         self.weights_changed.emit(weights)
         if self._face is None:
             return
+        self._asked = time.monotonic()
         poses = self._session.curve_set.poses
         if self._matrix is None or self._matrix.shape[0] != len(poses):
             self._matrix = self._face.retarget(poses)

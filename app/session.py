@@ -45,6 +45,11 @@ class Session(QObject):
         """The set as it sounds now: with the gesture that is under way, if any."""
         return self._shown
 
+    @property
+    def in_gesture(self) -> bool:
+        """Whether a gesture is being shown that the document does not have yet."""
+        return self._preview is not None
+
     def set_curve_set(self, curve_set: CurveSet) -> None:
         """Use another set, or the same with an edit; a gesture's preview ends."""
         self._curve_set = self._shown = curve_set

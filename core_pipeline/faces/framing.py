@@ -37,7 +37,7 @@ def head_camera(face: Face) -> Camera:
 
 def head_height(face: Face) -> float:
     """Height of the head, in the mesh's unit: of all that stands around what moves."""
-    return float(np.ptp(_near(face, _core(face))[:, 1]))
+    return float(np.ptp(_near(face, _moving(face))[:, 1]))
 
 
 def turned_upright(face: Face) -> tuple[Face, tuple[str, ...]]:

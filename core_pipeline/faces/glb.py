@@ -5,36 +5,83 @@ Every vertex is placed as the file's rest pose places it (nodes, and joints wher
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from core_pipeline.faces.face import Camera, Face, Floats
-from core_pipeline.faces.gltf_file import LARGEST, GltfFile, Json
-from core_pipeline.faces.normals import VertexNormals, seam_groups
+from core_pipeline.errors import UserError
+from core_pipeline.faces import draco
+from core_pipeline.faces.face import Face, Floats
+from core_pipeline.faces.framing import frame
+from core_pipeline.faces.gltf_colours import Colours
+from core_pipeline.faces.gltf_file import GltfFile, Json
+from core_pipeline.faces.gltf_scene import Matrix, Scene
+from core_pipeline.faces.limits import LARGEST, MAX_MORPH_BYTES, MAX_VERTICES
+from core_pipeline.faces.normals import shape_normals
+from core_pipeline.files.json_text import shown
 
-MAX_VERTICES = 2_000_000
-MAX_MORPH_BYTES = 2**30
+MAX_PARTS = 2000
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 
-Matrix = NDArray[np.floating[Any]]
+Cancelled = Callable[[], bool]
 
 
 def read_glb(path: str | Path) -> Face:
     """The face in a file. UserError when it is damaged, too large, or has no morph targets."""
-    gltf = GltfFile(Path(path))
-    patches = [
-        _patch(gltf, node, matrix, primitive, names, title)
-        for node, matrix in _placed_meshes(gltf)
-        for primitive, names, title in _primitives(gltf, node)
-    ]
-    if not any(patch.deltas for patch in patches):
+    return read_rig(Path(path))[0]
+
+
+def read_rig(path: Path, cancelled: Cancelled = lambda: False) -> tuple[Face, list[Path], tuple[str, ...]]:
+    """The face in a file, all the files it was read from, and what is odd about it.
+
+    `cancelled` is asked before every part. UserError as for `read_glb`.
+    """
+    gltf = GltfFile(path)
+    scene, colours = Scene(gltf), Colours(gltf)
+    planned = _planned(gltf, scene)
+    patches = []
+    for plan in planned:
+        if cancelled():
+            raise UserError(f"{path.name}: opening was cancelled.")
+        patches.append(_patch(gltf, scene, colours, plan))
+    return _join(gltf, patches), gltf.files, tuple(gltf.notes)
+
+
+@dataclass(frozen=True)
+class _Plan:
+    """One primitive to be read, and where it belongs."""
+
+    node: Json
+    matrix: Matrix
+    primitive: Json
+    names: list[str]
+    title: str
+
+
+def _planned(gltf: GltfFile, scene: Scene) -> list[_Plan]:
+    """All primitives of the scene, once it is sure that they fit into memory."""
+    plans: list[_Plan] = []
+    for node, matrix in scene.meshes():
+        plans += _primitives(gltf, node, matrix)
+        if len(plans) > MAX_PARTS:
+            raise gltf.fail(f"it has more than {MAX_PARTS:,} parts; export the head alone.")
+    vertices, shapes = 0, set()
+    for plan in plans:
+        attributes = gltf.part(plan.primitive, "attributes")
+        if "POSITION" not in attributes:
+            raise gltf.fail(f"mesh “{plan.title}” has no positions; export the file again.")
+        vertices += gltf.count(attributes["POSITION"])
+        shapes |= set(plan.names)
+    if not shapes:
         raise gltf.fail("it has no morph targets (blendshapes); export the face with shape keys.")
-    return _join(gltf, patches)
+    if vertices > MAX_VERTICES:
+        raise gltf.fail(f"it has {vertices:,} vertices, more than {MAX_VERTICES:,}; reduce the mesh.")
+    if vertices * len(shapes) * 24 > MAX_MORPH_BYTES:
+        raise gltf.fail(f"{vertices:,} vertices × {len(shapes)} shapes need more than 1 GB; reduce the mesh.")
+    return plans
 
 
 @dataclass
@@ -49,109 +96,70 @@ class _Patch:
     deltas: dict[str, Floats] = field(default_factory=dict)
 
 
-def _placed_meshes(gltf: GltfFile) -> Iterator[tuple[Json, Matrix]]:
-    """Every node of the scene that has a mesh, with its matrix; all meshes when the file has no nodes."""
-    nodes = gltf.items("nodes")
-    if not nodes:
-        yield from (({"mesh": index}, np.eye(4)) for index in range(len(gltf.items("meshes"))))
-        return
-    for index, matrix in _world(gltf).items():
-        if "mesh" in nodes[index]:
-            yield nodes[index], matrix
-
-
-def _world(gltf: GltfFile) -> dict[int, Matrix]:
-    """Node → matrix, for the nodes of the scene."""
-    children = {child for node in gltf.items("nodes") for child in gltf.numbers(node, "children")}
-    roots = [index for index in range(len(gltf.items("nodes"))) if index not in children]
-    if gltf.items("scenes"):
-        roots = gltf.numbers(gltf.item("scenes", gltf.json.get("scene", 0)), "nodes")
-    placed: dict[int, Matrix] = {}
-    waiting: list[tuple[int, Matrix]] = [(root, np.eye(4)) for root in roots]
-    while waiting:
-        index, above = waiting.pop(0)
-        node = gltf.item("nodes", index)
-        if index in placed:
-            raise gltf.fail(f"node {index} is in the scene twice; export the file again.")
-        placed[index] = above @ _local(gltf, node)
-        if np.abs(placed[index]).max() > LARGEST:
-            raise gltf.fail(f"node {index} stands {np.abs(placed[index]).max():.0e} away; export the file again.")
-        waiting += [(child, placed[index]) for child in gltf.numbers(node, "children")]
-    return placed
-
-
-def _local(gltf: GltfFile, node: Json) -> Matrix:
-    if "matrix" in node:
-        return _numbers(gltf, node["matrix"], 16).reshape(4, 4).T
-    x, y, z, w = _numbers(gltf, node.get("rotation", (0, 0, 0, 1)), 4)
-    length = np.sqrt(x * x + y * y + z * z + w * w) or 1.0
-    x, y, z, w = (float(part / length) for part in (x, y, z, w))
-    local = np.eye(4)
-    local[:3, :3] = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-    ]
-    local[:3, :3] *= _numbers(gltf, node.get("scale", (1, 1, 1)), 3)
-    local[:3, 3] = _numbers(gltf, node.get("translation", (0, 0, 0)), 3)
-    return local
-
-
-def _numbers(gltf: GltfFile, values: object, count: int) -> Matrix:
-    try:
-        numbers = np.asarray(values, float)
-    except (TypeError, ValueError):
-        numbers = np.array(np.nan)
-    if numbers.shape != (count,) or not (np.abs(numbers) <= LARGEST).all():
-        raise gltf.fail(f"a transform or colour is not {count} sensible numbers; export the file again.")
-    return numbers
-
-
-def _primitives(gltf: GltfFile, node: Json) -> Iterator[tuple[Json, list[str], str]]:
+def _primitives(gltf: GltfFile, node: Json, matrix: Matrix) -> list[_Plan]:
     mesh = gltf.item("meshes", node["mesh"])
-    title = str(node.get("name") or mesh.get("name") or f"mesh {node['mesh']}")
+    title = shown(str(node.get("name") or mesh.get("name") or f"mesh {node['mesh']}"))
     drawn = [
         item for item in gltf.parts(mesh, "primitives") if item.get("mode", _TRIANGLES) in (_TRIANGLES, _STRIP, _FAN)
     ]
     counts = {len(gltf.parts(primitive, "targets")) for primitive in drawn}
     if len(counts) > 1:
         raise gltf.fail(f"the parts of mesh “{title}” have different numbers of morph targets {sorted(counts)}.")
-    count = counts.pop() if counts else 0
-    extras = mesh.get("extras")
-    names = extras.get("targetNames") if isinstance(extras, dict) else None
-    if not isinstance(names, list):
-        names = [f"target {number}" for number in range(count)]
-    if len(names) != count:
-        raise gltf.fail(f"mesh “{title}” has {count} morph targets but names {len(names)}; export the file again.")
+    names = _names(gltf, mesh, drawn, title) if drawn else []
+    plans = []
     for number, primitive in enumerate(drawn):
         own = primitive.get("extras")
         part = own.get("part") if isinstance(own, dict) else None
-        yield primitive, [str(name) for name in names], str(part or (f"{title} {number + 1}" if number else title))
+        part = str(part or (f"{title} {number + 1}" if number else title))
+        plans.append(_Plan(node, matrix, primitive, names, part))
+    return plans
 
 
-def _patch(gltf: GltfFile, node: Json, matrix: Matrix, primitive: Json, names: list[str], title: str) -> _Patch:
+def _names(gltf: GltfFile, mesh: Json, drawn: list[Json], title: str) -> list[str]:
+    """One name for each morph target of a mesh, no two alike."""
+    targets = gltf.parts(drawn[0], "targets")
+    names: object = None
+    for holder in (mesh, drawn[0]):
+        extras = holder.get("extras")
+        names = names or (extras.get("targetNames") if isinstance(extras, dict) else None)
+    if not isinstance(names, list):
+        names = [f"target {number}" for number in range(len(targets))]
+        if targets:
+            gltf.note(f"Mesh “{title}” does not name its shapes (targetNames is missing): they are numbered.")
+    if len(names) != len(targets):
+        raise gltf.fail(
+            f"mesh “{title}” has {len(targets)} morph targets but names {len(names)}; export the file again."
+        )
+    once: dict[str, None] = {}
+    for name in map(str, names):
+        free, number = name, 2
+        while free in once:
+            free, number = f"{name} ({number})", number + 1
+        if free != name:
+            gltf.note(f"Mesh “{title}” has several shapes named “{shown(name)}”: the later ones are numbered.")
+        once[free] = None
+    return list(once)
+
+
+def _patch(gltf: GltfFile, scene: Scene, colours: Colours, plan: _Plan) -> _Patch:
+    primitive, title = plan.primitive, plan.title
     attributes, targets = gltf.part(primitive, "attributes"), gltf.parts(primitive, "targets")
-    if "POSITION" not in attributes:
-        raise gltf.fail(f"mesh “{title}” has no positions; export the file again.")
     count = gltf.count(attributes["POSITION"])
-    if count > MAX_VERTICES:
-        raise gltf.fail(f"mesh “{title}” has {count:,} vertices, more than {MAX_VERTICES:,}; reduce it.")
-    if count * len(targets) * 24 > MAX_MORPH_BYTES:
-        raise gltf.fail(f"{count:,} vertices × {len(targets)} morph targets need more than 1 GB; reduce the mesh.")
     _same_counts(gltf, title, count, attributes, targets)
-    place = _placement(gltf, node, matrix, attributes, count)
+    draco.unpack(gltf, primitive)
+    place = scene.placement(plan.node, plan.matrix, attributes, count)
     positions = gltf.read(attributes["POSITION"], "VEC3").astype(np.float32)
     triangles = _triangles(gltf, primitive, count, title)
-    if np.linalg.det(matrix[:3, :3]) < 0:
+    if np.linalg.det(plan.matrix[:3, :3]) < 0:
         triangles = triangles[:, ::-1]
-    patch = _Patch(title, _move(place, positions, 1), triangles, _colours(gltf, primitive, count))
+    surface = colours.of(primitive, count, triangles)
+    patch = _Patch(title, _move(place, positions, 1), triangles[surface.shown], surface.colours)
     if "NORMAL" in attributes:
         normals = gltf.read(attributes["NORMAL"], "VEC3").astype(np.float32)
         patch.normals = _unit(_move(np.linalg.pinv(place[..., :3, :3]).swapaxes(-1, -2), normals, 0))
-    for name, target in zip(names, targets, strict=True):
+    for name, target in zip(plan.names, targets, strict=True):
         if "POSITION" in target:
-            delta = _move(place, gltf.read(target["POSITION"], "VEC3").astype(np.float32), 0)
-            patch.deltas[name] = patch.deltas[name] + delta if name in patch.deltas else delta
+            patch.deltas[name] = _move(place, gltf.read(target["POSITION"], "VEC3").astype(np.float32), 0)
     return patch
 
 
@@ -160,31 +168,6 @@ def _same_counts(gltf: GltfFile, title: str, count: int, attributes: Json, targe
         for key, index in what.items():
             if gltf.count(index) != count:
                 raise gltf.fail(f"mesh “{title}” has {count:,} vertices but {gltf.count(index):,} values of {key}.")
-
-
-def _placement(gltf: GltfFile, node: Json, matrix: Matrix, attributes: Json, count: int) -> Matrix:
-    """(4, 4), or (n, 4, 4) for a mesh that hangs on joints: its own node's place does not count then."""
-    if "skin" not in node or not {"JOINTS_0", "WEIGHTS_0"} <= set(attributes):
-        return matrix
-    skin = gltf.item("skins", node["skin"])
-    joints = gltf.numbers(skin, "joints")
-    world = _world(gltf)
-    moved = np.array([world.get(joint, np.eye(4)) for joint in joints]).reshape(-1, 4, 4)
-    if "inverseBindMatrices" in skin:
-        inverse = gltf.read(skin["inverseBindMatrices"], "MAT4").reshape(-1, 4, 4).swapaxes(1, 2)
-        if len(inverse) < len(joints):
-            raise gltf.fail(f"a skin has {len(joints)} joints but {len(inverse)} bind matrices; export the file again.")
-        moved = moved @ inverse[: len(joints)]
-    which = gltf.read(attributes["JOINTS_0"], "VEC4").astype(np.int64)
-    weights = gltf.read(attributes["WEIGHTS_0"], "VEC4").astype(np.float32)
-    if count and which.max() >= len(joints):
-        raise gltf.fail(f"a vertex hangs on joint {which.max()} of {len(joints)}; export the file again.")
-    total = weights.sum(1, keepdims=True)
-    weights = np.where(total > 0, weights / np.where(total > 0, total, 1), (1.0, 0, 0, 0))
-    blended = np.zeros((count, 4, 4), np.float32)
-    for slot in range(4):
-        blended += weights[:, slot, None, None] * moved[which[:, slot]].astype(np.float32)
-    return blended
 
 
 def _move(place: Matrix, vectors: Floats, w: int) -> Floats:
@@ -221,29 +204,11 @@ def _triangles(gltf: GltfFile, primitive: Json, count: int, title: str) -> NDArr
     return corners.astype(np.uint32)
 
 
-def _colours(gltf: GltfFile, primitive: Json, count: int) -> Floats:
-    """Vertex colours × the material's colour; the gloss is our own fourth colour, else what the roughness leaves."""
-    material = gltf.item("materials", primitive["material"]) if "material" in primitive else {}
-    surface = gltf.part(material, "pbrMetallicRoughness")
-    base = _numbers(gltf, surface.get("baseColorFactor", (1, 1, 1, 1)), 4)
-    colours = np.ones((count, 4), np.float32)
-    colours[:, 3] = 1 - np.clip(_numbers(gltf, [surface.get("roughnessFactor", 0.6)], 1)[0], 0, 1)
-    index: Any = gltf.part(primitive, "attributes").get("COLOR_0")
-    if index is not None:
-        kind = "VEC4" if gltf.item("accessors", index).get("type") == "VEC4" else "VEC3"
-        own = gltf.read(index, kind).astype(np.float32)
-        colours[:, :3] = own[:, :3]
-        if kind == "VEC4" and primitive.get("extras") == {"glossInAlpha": True}:
-            colours[:, 3] = own[:, 3]
-    colours[:, :3] *= base[:3]
-    return np.clip(colours, 0, 1)
-
-
 def _join(gltf: GltfFile, patches: list[_Patch]) -> Face:
     sizes = [len(patch.positions) for patch in patches]
     shapes = tuple(dict.fromkeys(name for patch in patches for name in patch.deltas))
-    if sum(sizes) * len(shapes) * 24 > MAX_MORPH_BYTES:
-        raise gltf.fail(f"{sum(sizes):,} vertices × {len(shapes)} shapes need more than 1 GB; reduce the mesh.")
+    if not shapes:
+        raise gltf.fail("its morph targets move nothing; export the face with shape keys.")
     first = np.concatenate([[0], np.cumsum(sizes)]).astype(np.uint32)
     triangles = np.concatenate([patch.triangles + start for patch, start in zip(patches, first, strict=False)])
     far = max(
@@ -258,7 +223,8 @@ def _join(gltf: GltfFile, patches: list[_Patch]) -> Face:
     for patch, start in zip(patches, first, strict=False):
         for name, delta in patch.deltas.items():
             deltas[shapes.index(name), start : start + len(delta)] = delta
-    normals, normal_deltas = _light(patches, positions, triangles, deltas)
+    stored = [patch.normals if patch.normals is not None else np.zeros_like(patch.positions) for patch in patches]
+    normals, normal_deltas = shape_normals(positions, triangles, deltas, np.concatenate(stored))
     return Face(
         name=gltf.path.stem,
         title=gltf.path.stem,
@@ -274,21 +240,6 @@ def _join(gltf: GltfFile, patches: list[_Patch]) -> Face:
     )
 
 
-def _light(
-    patches: list[_Patch], positions: Floats, triangles: NDArray[np.uint32], deltas: Floats
-) -> tuple[Floats, Floats]:
-    """Normals as the file gives them (else from the triangles), and how they turn in every shape."""
-    given = [patch.normals if patch.normals is not None else np.zeros_like(patch.positions) for patch in patches]
-    stored = np.concatenate(given)
-    computed = VertexNormals(triangles, seam_groups(positions, stored))
-    rest = computed.of(positions)
-    turned = np.zeros_like(deltas)
-    for shape, delta in enumerate(deltas):
-        if delta.any():
-            turned[shape] = computed.of(positions + delta) - rest
-    return np.where(stored.any(axis=1, keepdims=True), stored, rest), turned
-
-
 def _parts(patches: list[_Patch]) -> dict[str, tuple[int, int]]:
     parts: dict[str, tuple[int, int]] = {}
     first = 0
@@ -299,11 +250,3 @@ def _parts(patches: list[_Patch]) -> dict[str, tuple[int, int]]:
         parts[title] = (first, len(patch.triangles))
         first += len(patch.triangles)
     return parts
-
-
-def frame(positions: Floats) -> Camera:
-    """A camera that shows all of a mesh from the front."""
-    low, high = positions.min(0).astype(float), positions.max(0).astype(float)
-    x, y, z = ((low + high) / 2).tolist()
-    size = float((high - low).max()) or 1.0
-    return Camera(target=(x, y, z), distance=0.6 * size / np.tan(np.radians(12.0)), fov=24.0)

@@ -43,7 +43,9 @@ class Scene:
         if "inverseBindMatrices" in skin:
             inverse = gltf.read(skin["inverseBindMatrices"], "MAT4").reshape(-1, 4, 4).swapaxes(1, 2)
             if len(inverse) < len(joints):
-                raise gltf.fail(f"a skin has {len(joints)} joints but {len(inverse)} bind matrices; export the file again.")
+                raise gltf.fail(
+                    f"a skin has {len(joints)} joints but {len(inverse)} bind matrices; export the file again."
+                )
             moved = moved @ inverse[: len(joints)]
         which = gltf.read(attributes["JOINTS_0"], "VEC4").astype(np.int64)
         weights = gltf.read(attributes["WEIGHTS_0"], "VEC4").astype(np.float32)

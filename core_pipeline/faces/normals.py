@@ -41,3 +41,20 @@ def seam_groups(positions: Floats, normals: Floats | None = None) -> NDArray[np.
     rows = np.ascontiguousarray(keys, np.float32) + np.float32(0)  # -0.0 and 0.0 are one place
     _, groups = np.unique(rows.view(np.dtype((np.void, rows.shape[1] * 4))).ravel(), return_inverse=True)
     return groups.astype(np.intp)
+
+
+def shape_normals(
+    positions: Floats, triangles: NDArray[np.uint32], deltas: Floats, given: Floats | None = None
+) -> tuple[Floats, Floats]:
+    """Normals (n, 3) at rest, and what each shape of `deltas` (k, n, 3) adds to them.
+
+    given  (n, 3) normals that a file brings, zero where it brings none: they stand, and split what they differ at
+    """
+    known = np.zeros_like(positions) if given is None else given
+    computed = VertexNormals(triangles, seam_groups(positions, known))
+    rest = computed.of(positions)
+    turned = np.zeros_like(deltas)
+    for shape, delta in enumerate(deltas):
+        if delta.any():
+            turned[shape] = computed.of(positions + delta) - rest
+    return np.where(known.any(axis=1, keepdims=True), known, rest), turned

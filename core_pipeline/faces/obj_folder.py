@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core_pipeline.errors import UserError
-from core_pipeline.faces.face import Face, Floats
+from core_pipeline.faces.face import Face
 from core_pipeline.faces.framing import frame
 from core_pipeline.faces.limits import LARGEST, MAX_FILE, MAX_MORPH_BYTES, MAX_VERTICES
-from core_pipeline.faces.normals import VertexNormals, seam_groups
+from core_pipeline.faces.normals import shape_normals
 from core_pipeline.faces.retarget import normalised
 from core_pipeline.files.atomic import read_bytes
 from core_pipeline.files.json_text import shown
@@ -58,7 +58,7 @@ def read_obj_folder(folder: Path, cancelled: Cancelled = lambda: False) -> tuple
             raise UserError(f"{folder}: opening was cancelled.")
         deltas[row] = _Obj(path).vertices_like(base) - base.vertices
     positions = base.vertices.astype(np.float32)
-    normals, normal_deltas = light(positions, triangles, deltas)
+    normals, normal_deltas = shape_normals(positions, triangles, deltas)
     face = Face(
         name=folder.name,
         title=folder.name,
@@ -73,17 +73,6 @@ def read_obj_folder(folder: Path, cancelled: Cancelled = lambda: False) -> tuple
         camera=frame(positions),
     )
     return face, ()
-
-
-def light(positions: Floats, triangles: NDArray[np.uint32], deltas: Floats) -> tuple[Floats, Floats]:
-    """Normals (n, 3) at rest, and what each shape (k, n, 3) adds to them."""
-    normals = VertexNormals(triangles, seam_groups(positions))
-    rest = normals.of(positions)
-    turned = np.zeros_like(deltas)
-    for shape, delta in enumerate(deltas):
-        if delta.any():
-            turned[shape] = normals.of(positions + delta) - rest
-    return rest, turned
 
 
 def _neutral(folder: Path, paths: list[Path]) -> Path:

@@ -12,7 +12,7 @@ from core_pipeline.errors import UserError
 from core_pipeline.faces import face_folder, rig_cache
 from core_pipeline.faces.face import Face
 from core_pipeline.faces.framing import head_camera, head_height, turned_upright
-from core_pipeline.faces.glb import read_glb
+from core_pipeline.faces.glb import read_rig
 from core_pipeline.faces.mapping_json import load_mapping, mapping_path
 from core_pipeline.faces.obj_folder import read_obj_folder
 from core_pipeline.faces.retarget import OWN_NAMES, Mix, Preset, Retarget, best
@@ -88,7 +88,7 @@ def _read(path: Path, cancelled: Cancelled) -> tuple[Face, list[Path], tuple[str
         raise UserError(f"{path}: one .obj has no poses; choose its folder, with one .obj per pose.")
     if kind not in (".glb", ".gltf", ".vrm") and path.is_file():
         raise UserError(f"{path}: faces are .glb, .gltf or .vrm files or folders of .obj; export it as .glb.")
-    return read_glb(path), [path], ()
+    return read_rig(path, cancelled)
 
 
 def _obj_files(folder: Path) -> list[Path]:

@@ -8,7 +8,6 @@ import numpy as np
 
 from core_pipeline.faces.face import Face
 from core_pipeline.faces.sculpt.mouth import BAG_RINGS, RINGS
-from core_pipeline.faces.sculpt.toon import TOON
 from tests.helpers.zbuffer import deformed
 
 #: Rings 0 is the edge of the bag, deep behind the lip.
@@ -17,7 +16,8 @@ FIRST = 1
 
 def lip_sections(face: Face, weights: Mapping[str, float]) -> np.ndarray:
     """(rings, columns, 3): the lips are the first vertices of our faces after the bag's rings."""
-    columns = TOON.lip_columns
+    # the bag's end is a fan of one triangle per column, its rings and the hidden half of the lips are bands of two
+    columns = face.parts["mouth"][1] // (1 + 2 * (BAG_RINGS + 2))
     points = deformed(face, weights)
     start = BAG_RINGS * columns
     return points[start : start + RINGS * columns].reshape(RINGS, columns, 3).astype(float)

@@ -9,8 +9,10 @@ from core_pipeline.faces.face_folder import save
 from core_pipeline.faces.sculpt.build import sculpt
 from core_pipeline.faces.sculpt.character import Character
 from core_pipeline.faces.sculpt.toon import TOON
+from core_pipeline.faces.sculpt.woman import WOMAN
 
-CHARACTERS: tuple[Character, ...] = (TOON,)
+HUMANS: tuple[Character, ...] = (TOON, WOMAN)
+CHARACTERS: tuple[Character, ...] = HUMANS
 
 
 def build_all(folder: str | Path, progress: Callable[[int, int, str], None] | None = None) -> list[Path]:

@@ -30,7 +30,9 @@ POSES = {
     "bare teeth": MouthPose(
         width=0.10, raise_upper=0.10, drop_lower=0.075, roll_upper=8, roll_lower=8, thick=-0.12, corners=0.015, flat=1.0,
     ),
-    "smile": MouthPose(width=0.20, corners=0.15, thick=-0.10, cheeks=0.08, forward=-0.01),
+    "smile": MouthPose(
+        width=0.16, corners=0.12, raise_upper=-0.035, drop_lower=0.035, thick=-0.10, cheeks=0.06, forward=-0.01
+    ),
     "frown": MouthPose(
         width=-0.06, corners=-0.17, raise_upper=0.03, drop_lower=-0.03, thick=0.10, thick_lower=0.1, forward=0.03,
     ),
@@ -60,7 +62,7 @@ CLAW = Claw(
         rows=14,
     ),
     palm=Horn(
-        ((1.11, -0.04, 0.58), (1.18, 0.14, 0.60), (1.52, 0.30, 0.62), (1.34, 0.62, 0.64), (1.12, 0.66, 0.64)),
+        ((1.11, -0.04, 0.58), (1.16, 0.14, 0.60), (1.46, 0.30, 0.62), (1.30, 0.62, 0.64), (1.08, 0.66, 0.64)),
         ((0.0, 0.05), (0.08, 0.12), (0.32, 0.205), (0.6, 0.13), (0.85, 0.07), (1.0, 0.012)),
         flat=0.8,
         rows=20,
@@ -86,18 +88,18 @@ def _leg(forward: float, out: float, low: float) -> Horn:
             (0.45 + 0.86 * out, low, 1.7 * forward),
         ),
         ((0.0, 0.11), (0.3, 0.095), (0.52, 0.10), (0.75, 0.055), (1.0, 0.012)),
-        rows=18,
-        sides=10,
+        rows=16,
+        sides=8,
     )
 
 
 def _spike(x: float, y: float, z: float) -> Horn:
     return Horn(
         ((0.93 * x, y, 0.93 * z), (1.0 * x, y + 0.01, 1.0 * z), (1.07 * x, y + 0.05, 1.07 * z)),
-        ((0.0, 0.075), (0.5, 0.055), (0.9, 0.02), (1.0, 0.006)),
+        ((0.0, 0.075), (0.6, 0.05), (1.0, 0.01)),
         reference=(0.0, 1.0, 0.0),
         rows=7,
-        sides=8,
+        sides=9,
     )
 
 
@@ -108,7 +110,7 @@ CRAB = Crab(
     poses=POSES,
     rest_tongue=REST,
     mouth=Mouth(
-        height=-0.20, half_width=0.46, smile=0.075, upper=0.05, lower=0.062, upper_depth=0.036, lower_depth=0.042,
+        height=-0.25, half_width=0.46, smile=0.07, upper=0.05, lower=0.062, upper_depth=0.036, lower_depth=0.042,
         lap=0.055, bow=0.0, hinge=(0.0, 0.0, -0.05), bag=(0.46, 0.26, 0.60),
     ),
     teeth=Dentition(
@@ -125,10 +127,10 @@ CRAB = Crab(
         Spot((0.78, 0.34, 0.45), 0.035), Spot((0.36, 0.60, -0.3), 0.09), Spot((0.75, 0.45, -0.1), 0.06),
     ),
     middle=(0.0, -0.04, 0.0),
-    brim=0.10,
+    brim=0.03,
     palette=Palette(
-        skin=(0.87, 0.25, 0.12), blush=(0.95, 0.42, 0.34), lid=(0.80, 0.22, 0.11), lip=(0.78, 0.25, 0.20),
+        skin=(0.87, 0.25, 0.12), blush=(0.95, 0.42, 0.34), lid=(0.80, 0.22, 0.11), lip=(0.90, 0.40, 0.29),
         inner_lip=(0.45, 0.12, 0.12), gums=(0.74, 0.30, 0.32), tongue=(0.90, 0.42, 0.46),
     ),
-    camera=Camera(target=(0.0, 0.10, 0.1), distance=7.4, pitch=4.0),
+    camera=Camera(target=(0.0, 0.10, 0.1), distance=7.9, pitch=4.0),
 )  # fmt: skip

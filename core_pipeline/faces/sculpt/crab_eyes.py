@@ -12,10 +12,13 @@ from core_pipeline.faces.sculpt.horn import Horn, horn
 from core_pipeline.faces.sculpt.piece import Piece, grid, linear, mirror, paint
 from core_pipeline.faces.sculpt.sdf import Array, smoothstep
 
-COLUMNS = 22
+COLUMNS = 19
 # along the visor from its edge to behind the ball: (share of the way, radius over the ball's)
-SECTION = np.array([(0.03, 0.97), (0.0, 1.02), (0.0, 1.07), (0.03, 1.10), (0.10, 1.09), (0.3, 1.08), (0.6, 1.07), (1.0, 1.06)])
-BACK = 170.0
+SECTION = np.array(
+    [(0.03, 0.97), (0.0, 1.02), (0.0, 1.07), (0.03, 1.10), (0.10, 1.10)]
+    + [(share, 1.10 - 0.03 * share) for share in (0.2, 0.31, 0.42, 0.55, 0.7, 0.85, 1.0)]
+)
+BACK = 183.0
 CLEAR = 1.04
 
 
@@ -50,7 +53,8 @@ def _turned(crab: Crab, edge: float, shown: float) -> Array:
     turned = (shown - edge) * (1 - share)
     height = np.radians(edge + (back - edge) * share + turned)
     # half way the straight line of a blendshape cuts inside the ball: a turned visor stands out to make up for it
-    out = np.maximum(1, 2 * CLEAR / (1.07 * np.cos(np.radians(turned / 2))) - 1) if abs(shown) < abs(edge) else 1.0
+    way = np.sqrt(np.sin(side) ** 2 + np.cos(side) ** 2 * np.cos(np.radians(turned / 2)) ** 2)
+    out = np.maximum(1, 2 * CLEAR / (1.07 * way) - 1)
     local = np.stack([np.sin(side) + 0 * height, np.cos(side) * np.sin(height), np.cos(side) * np.cos(height)], -1)
     local = (local * (radius * out)[..., None]).reshape(-1, 3)
     a, b = np.radians(stalks.tilt), np.radians(stalks.yaw)

@@ -11,7 +11,7 @@ from core_pipeline.faces.sculpt.horn import Horn, horn
 from core_pipeline.faces.sculpt.piece import Piece, fan, grid, linear, mirror, paint
 from core_pipeline.faces.sculpt.sdf import Array, Point, Solid, smoothstep
 
-SPOT_RINGS, SPOT_AROUND = 3, 16
+SPOT_RINGS, SPOT_AROUND = 2, 14
 
 
 def limbs(crab: Crab, clay: Solid) -> list[Piece]:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from core_pipeline.faces.sculpt.character import MouthPose
 from core_pipeline.faces.sculpt.crab_body import Crab
@@ -15,6 +16,10 @@ from core_pipeline.faces.sculpt.layout import RIM, lay_out
 from core_pipeline.faces.sculpt.mouth import BAG_RINGS, PROFILE, RINGS, Lips
 from core_pipeline.faces.sculpt.piece import Piece, Triangles, fan, grid, linear, turn
 from core_pipeline.faces.sculpt.sdf import Array, Solid, smoothstep
+
+
+# half the width of the line where the brim's colours meet
+BRIM = 0.012
 
 
 class Shell:
@@ -27,15 +32,16 @@ class Shell:
         forward /= np.linalg.norm(forward)
         self._axes = np.array([(1.0, 0.0, 0.0), np.cross(forward, (1.0, 0.0, 0.0)), forward])
         border = self._to_map(lips.rest[-1])
+        brim = self._brim()
 
         def spacing(flat: Array) -> Array:
             lips = np.min(np.linalg.norm(flat[:, None] - border[None], axis=-1), axis=1)
             away = np.linalg.norm(flat, axis=1)
-            near: Array = np.minimum(0.045 + 0.10 * lips, 0.105 + 0.12 * np.clip(away - 1.6, 0, 1))
+            near: Array = np.minimum(0.045 + 0.10 * lips, 0.115 + 0.12 * np.clip(away - 1.6, 0, 1))
             return near
 
-        self.layout = lay_out(border, [], spacing)
-        self.face = self._shape()
+        self.layout = lay_out(border, [np.empty((0, 2)), *brim], spacing)
+        self.face = self._shape(np.concatenate(brim))
         self._number()
         self._prepare_fields()
 
@@ -46,7 +52,21 @@ class Shell:
         flat: Array = away[..., :2] / across * np.arccos(np.clip(away[..., 2:], -1, 1))
         return flat
 
-    def _shape(self) -> Array:
+    def _brim(self) -> list[Array]:
+        """Two lines of the right half's map, on both sides of the brim: its colours meet sharply."""
+        towards = np.linspace(0, np.pi - 0.06, 64)
+        lines = []
+        for height in (self.crab.brim + BRIM, self.crab.brim - BRIM):
+            level = np.broadcast_to((0.0, height, 0.0), (len(towards), 3))
+            line = self._to_map(self.clay.cast(level, np.stack([np.sin(towards), 0 * towards, np.cos(towards)], -1)))
+            steps = np.append(0, np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1)))
+            even = np.linspace(0, steps[-1], int(steps[-1] / 0.09))
+            line = np.stack([np.interp(even, steps, line[:, i]) for i in range(2)], -1)
+            line[0, 0] = 0.0
+            lines.append(line[np.linalg.norm(line, axis=1) < RIM - 0.15])
+        return lines
+
+    def _shape(self, brim: Array) -> Array:
         """Positions of the layout's points: cast on the clay, then evened out where the map was stretched."""
         flat = self.layout.points
         angle = np.linalg.norm(flat, axis=-1, keepdims=True)
@@ -56,10 +76,12 @@ class Shell:
         points[self.layout.border] = self.lips.rest[-1]
         fixed = angle[:, 0] > 2.2
         fixed[self.layout.border] = True
+        fixed |= cKDTree(brim).query(np.abs(flat) * (1, 0) + flat * (0, 1))[0] < 1e-9
         for _ in range(12):
             moved = points + 0.5 * (self.layout.neighbour_mean(points) - points)
             points = np.where(fixed[:, None], points, self.clay.project(moved, 2))
         points[flat[:, 0] == 0.0, 0] = 0.0
+        self._back = self.clay.cast(self._middle[None], -self._axes[2:])[0]
         return points
 
     def _number(self) -> None:
@@ -75,7 +97,7 @@ class Shell:
         tube = tube[np.argsort(np.tile(np.repeat(np.arange(rows - 1), columns), 2), kind="stable")]
         throat = fan(np.arange(columns), inner - 1)
         on_rim = np.flatnonzero(np.linalg.norm(self.layout.points, axis=1) > RIM - 1e-6)
-        around = np.argsort(np.arctan2(*self.layout.points[on_rim].T))[::-1]
+        around = np.argsort(np.arctan2(*self.layout.points[on_rim].T))
         self._rim = on_rim[around]
         back = fan(number[self._rim], inner + int(self._own.sum()))
         shell = np.concatenate([number[self.layout.triangles], back])
@@ -120,7 +142,7 @@ class Shell:
 
     def _whole(self, lips: Array, bag: Array, face: Array) -> Array:
         inner = np.concatenate([bag[::-1].reshape(-1, 3), lips.reshape(-1, 3), bag[-1].mean(0)[None]])
-        return np.concatenate([inner, face[self._own], face[self._rim].mean(0)[None]])
+        return np.concatenate([inner, face[self._own], self._back[None]])
 
     def _colours(self, rest: Array) -> Array:
         palette, columns = self.crab.palette, self.crab.lip_columns
@@ -148,8 +170,8 @@ class Shell:
         palette, mouth = self.crab.palette, self.crab.mouth
         x, y, z = points.T
         red, orange, cream = linear(palette.skin), linear(self.crab.side), linear(self.crab.belly)
-        below = smoothstep(self.crab.brim + 0.05, self.crab.brim - 0.05, y)[:, None]
-        tone = red + below * (orange - red)
+        below = smoothstep(self.crab.brim + BRIM, self.crab.brim - BRIM, y)[:, None]
+        tone = red + below * smoothstep(-0.6, -0.2, z)[:, None] * (orange - red)
         round_mouth = np.hypot(x / (mouth.half_width + 0.30), (y - mouth.height + 0.12) / 0.46)
         pale = (smoothstep(1.25, 0.55, round_mouth) * smoothstep(-0.1, 0.3, z))[:, None]
         tone = tone + pale * below * (cream - tone)

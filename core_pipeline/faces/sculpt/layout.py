@@ -42,7 +42,7 @@ def lay_out(border: Array, eye_rings: list[Array], spacing: Callable[[Array], Ar
     half[[0, -1], 0] = 0.0
     loop = eye_rings[0] if eye_rings else np.empty((0, 2))
     seeds = [half, loop]
-    seeds += [ring[ring[:, 0] > 0.02] for ring in eye_rings[1:]]
+    seeds += [ring[(ring[:, 0] > 0.02) | (ring[:, 0] == 0)] for ring in eye_rings[1:]]
     seeds += _lip_rings(half)
     seeds.append(np.stack([RIM * np.sin(np.linspace(0, np.pi, 15)), -RIM * np.cos(np.linspace(0, np.pi, 15))], -1))
     fixed = np.concatenate(seeds)

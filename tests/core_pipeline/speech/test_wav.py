@@ -69,5 +69,5 @@ def test_what_is_no_wav_is_told(tmp_path, content):
 def test_a_missing_file_and_a_missing_folder_are_told(tmp_path):
     with pytest.raises(UserError, match="cannot be read"):
         read_wav(tmp_path / "missing.wav")
-    with pytest.raises(UserError, match="cannot be written"):
+    with pytest.raises(UserError, match="Cannot write"):
         write_wav(tmp_path / "nowhere" / "a.wav", Audio(np.zeros(3, np.float32), 8000))
