@@ -47,6 +47,8 @@ class Actions:
         )
         self.safe_colours.setCheckable(True)
         self.default_layout = self._action(tr("Reset &Layout"), None, tr("Put all docks back in their places"))
+        self.open_face = self._action(tr("Open &Face…"), "Ctrl+Shift+O", tr("Show a .glb, .gltf or .vrm of yours"))
+        self.open_face_folder = self._action(tr("Open Face Fol&der…"), None, tr("Show a folder of .obj poses"))
         self.about = self._action(tr("&About Lipstitch"), None, "")
         self._menus()
 
@@ -75,4 +77,5 @@ class Actions:
             for action in actions:
                 menu.addSeparator() if action is None else menu.addAction(action)
         self.view_menu = menu
+        self.characters_menu = menu.addMenu(tr("&Character"))
         bar.addMenu(tr("&Help")).addAction(self.about)

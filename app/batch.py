@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from core_pipeline import pipeline
 from core_pipeline.curve_set import STATUSES, CurveSet
@@ -14,6 +16,7 @@ from core_pipeline.files.atomic import read_bytes, reason
 from core_pipeline.files.json_text import shown
 from core_pipeline.phonemes import SILENCE, pair_name
 from core_pipeline.pipeline import Stages
+from core_pipeline.poses import FACEFX
 from core_pipeline.settings import PRESETS
 from core_pipeline.speech.speaker import speak
 from core_pipeline.speech.utterance import Utterance
@@ -22,6 +25,9 @@ from core_pipeline.weights import bake as bake_weights
 from core_pipeline.weights import sample
 
 from . import resources
+
+if TYPE_CHECKING:
+    from core_pipeline.faces.open_face import Opened
 
 #: Nine hours at 30 frames a second.
 MAX_FRAMES = 1_000_000
@@ -130,11 +136,14 @@ def render(options: argparse.Namespace) -> int:
     stages = pipeline.run(utterance.schedule, curve_set)
     _tell_missing(stages)
     weights = bake_weights(stages.magenta, curve_set.effective_settings.spline, options.fps)
+    opened = open_rig(options.face or resources.face_folder(), stages.poses)
+    for line in opened.notes if options.face else ():
+        print(f"lipstitch: {line}", file=sys.stderr)
     _make_folder(options.out)
 
     from .frames import FaceFrames
 
-    frames = FaceFrames(resources.face_folder(), stages.poses, options.size)
+    frames = FaceFrames(opened.face, stages.poses, options.size)
     total = len(weights.frames)
     for i, row in enumerate(weights.frames):
         frames.save(row, options.out / f"frame_{i:05d}.png")
@@ -143,6 +152,30 @@ def render(options: argparse.Namespace) -> int:
     if utterance.audio is not None:
         _save_sound(utterance, options.out / "sound.wav")
     print(f"{total} frames at {options.fps:g} per second in {options.out}")
+    return 0
+
+
+def open_rig(path: Path, poses: Sequence[str] = FACEFX) -> Opened:
+    """Any face: one of ours or a user's rig; kept in the user's cache for the next time."""
+    from core_pipeline.faces import rig_cache
+    from core_pipeline.faces.mapping_json import load_presets
+    from core_pipeline.faces.open_face import open_face
+
+    return open_face(path, load_presets(resources.retarget_presets()), poses, rig_cache.user_cache())
+
+
+def tell_face(path: Path) -> int:
+    """What a face is made of, and which poses it can make."""
+    opened = open_rig(path)
+    face, made = opened.face, opened.retarget
+    print(f"{shown(face.title, 200)}: {len(face.positions):,} vertices, {len(face.triangles):,} triangles.")
+    print(f"{len(face.shapes)} shapes: {', '.join(shown(name) for name in face.shapes)}.")
+    if made.poses:
+        print(f"Poses by {shown(made.title, 200)}:")
+    for pose, mix in made.poses.items():
+        print(f"  {shown(pose)} = {' + '.join(f'{amount:g} {shown(shape)}' for shape, amount in mix.items())}")
+    for line in opened.notes:
+        print(shown(line, 2000))
     return 0
 
 
@@ -163,7 +196,8 @@ def demo(sentence: str, curves: Path | None) -> int:
     from .frames import FaceFrames
 
     times = [utterance.schedule.start + utterance.schedule.duration * (i + 0.5) / 12 for i in range(12)]
-    FaceFrames(resources.face_folder(), stages.poses, (256, 256)).save_strip(
+    face = open_rig(resources.face_folder(), stages.poses).face
+    FaceFrames(face, stages.poses, (256, 256)).save_strip(
         sample(stages.magenta, settings.spline, times), folder / "face.png"
     )
     _draw_window(sentence, curves, folder / "window.png")

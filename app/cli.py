@@ -16,7 +16,7 @@ from core_pipeline.files.atomic import reason
 from core_pipeline.files.json_text import shown
 from core_pipeline.settings import PRESETS, SPLINES
 
-COMMANDS = ("edit", "bake", "check", "render", "screenshot")
+COMMANDS = ("edit", "bake", "check", "render", "face", "screenshot")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -159,7 +159,12 @@ def _parser() -> argparse.ArgumentParser:
     )
     render.add_argument("--fps", type=float, default=30, metavar="N", help="frames per second, 1 to 240 (default 30)")
     render.add_argument("--size", type=_size, default=(512, 512), metavar="WxH", help="pixels (default 512x512)")
+    render.add_argument("--face", type=Path, metavar="PATH", help="a .glb, .gltf or .vrm, or a folder of .obj poses")
     render.set_defaults(run=_render)
+
+    face = command("face", "say what a face is made of and which poses it can make", "lipstitch face head.glb")
+    face.add_argument("path", type=Path, metavar="PATH", help="a .glb, .gltf or .vrm, or a folder of .obj poses")
+    face.set_defaults(run=_face)
 
     shot = command(
         "screenshot",
@@ -224,6 +229,12 @@ def _render(options: argparse.Namespace) -> int:
     from .batch import render
 
     return render(options)
+
+
+def _face(options: argparse.Namespace) -> int:
+    from .batch import tell_face
+
+    return tell_face(options.path)
 
 
 def _screenshot(options: argparse.Namespace) -> int:

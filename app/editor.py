@@ -14,7 +14,6 @@ from PySide6.QtWidgets import QApplication, QMessageBox
 
 from core_pipeline.curve_set import CurveSet
 from core_pipeline.errors import UserError
-from core_pipeline.faces import face_folder
 from core_pipeline.files import curve_set_json
 from core_pipeline.files.atomic import reason
 from core_pipeline.speech.speaker import Speaker
@@ -22,6 +21,7 @@ from widgets import theme
 
 from . import resources
 from .document import Document
+from .faces import Faces
 from .file_actions import FileActions
 from .main_window import MainWindow
 from .parts import Parts
@@ -44,6 +44,7 @@ class Editor(QObject):
         self.session = Session(curve_set, self)
         self.window = MainWindow(self.document)
         self.preview = Preview(self.session, self)
+        self.faces = Faces(self)
         self.speaker = Speaker()
         self.speech = SpeechWorker(self.speaker, self)
         self._search = SpeechWorker(self.speaker, self)
@@ -54,6 +55,7 @@ class Editor(QObject):
                 session=self.session,
                 window=self.window,
                 preview=self.preview,
+                faces=self.faces,
                 files=self.files,
                 state=state,
                 speech=self.speech,
@@ -61,10 +63,6 @@ class Editor(QObject):
             ),
             self,
         )
-        try:
-            self.preview.set_face(face_folder.load(resources.face_folder()))
-        except UserError as error:
-            self.window.face_view.set_message(str(error))
 
     def start(self, sentence: str) -> None:
         """Begin drawing and speaking; the sentence is shown, and played when the user asks."""
@@ -75,6 +73,7 @@ class Editor(QObject):
         """Stop threads and timers, remember the layout."""
         self.wiring.remember()
         self.files.autosave.finish()
+        self.faces.close()
         self.speech.stop()
         self._search.stop()
         self.preview.stop()

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from core_pipeline.faces.face_folder import load
+from core_pipeline.faces.face import Face
 from core_pipeline.faces.render import FaceRenderer
 from core_pipeline.faces.render_context import Platform
 from core_pipeline.faces.view import View
@@ -25,8 +25,7 @@ class FaceFrames:
     poses  the order of the weights; size  (width, height) in pixels
     """
 
-    def __init__(self, folder: Path, poses: tuple[str, ...], size: tuple[int, int]) -> None:
-        face = load(folder)
+    def __init__(self, face: Face, poses: tuple[str, ...], size: tuple[int, int]) -> None:
         self._matrix = face.retarget(poses)
         self._renderer = FaceRenderer(face, _platform())
         self._view = View.of(face.camera)

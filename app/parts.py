@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from .document import Document
+from .faces import Faces
 from .file_actions import FileActions
 from .main_window import MainWindow
 from .preview import Preview
@@ -24,6 +25,7 @@ class Parts:
     session: Session
     window: MainWindow
     preview: Preview
+    faces: Faces
     files: FileActions
     state: ViewState
     speech: SpeechWorker

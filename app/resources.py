@@ -25,6 +25,17 @@ def english_curves() -> Path:
     return assets() / "curves" / "english.json"
 
 
+def retarget_presets() -> Path:
+    """The naming conventions of rigs we know."""
+    return assets() / "retarget"
+
+
+def characters() -> list[Path]:
+    """The folders of our own characters, by name; the first is the one shown first."""
+    folders = [face.parent for face in (assets() / "faces").glob("*/face.glb")]
+    return sorted(folders, key=lambda folder: (folder.name != "toon", folder.name))
+
+
 def face_folder(name: str = "toon") -> Path:
     """One of our own characters."""
     return assets() / "faces" / name

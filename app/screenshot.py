@@ -58,6 +58,7 @@ def _wait_for_face(editor: Editor) -> None:
     rest.timeout.connect(loop.quit)
     editor.preview.frame_ready.connect(rest.start)
     editor.preview.failed.connect(rest.start)
+    editor.faces.failed.connect(rest.start)
     QTimer.singleShot(PATIENCE_MS, loop, loop.quit)
     loop.exec()
 

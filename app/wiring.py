@@ -1,7 +1,7 @@
 """The only place, with its two neighbours, where wishes become commands and values reach the views.
 
-open_bigram.py has the canvas and what belongs to it, sentence.py the sentence and its transport; here is
-the rest: the document's news, the pipeline's results, settings, search, the face, menus.
+open_bigram.py has the canvas and what belongs to it, sentence.py the sentence and its transport,
+character.py the face; here is the rest: the document's news, the pipeline's results, settings, search, menus.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from core_pipeline.settings import Settings
 from core_pipeline.speech.utterance import Utterance
 from widgets.weak_list import WeakRow
 
+from .character import Character
 from .open_bigram import OpenBigram
 from .parts import Parts
 from .preview import BIGRAM_SECONDS
@@ -25,7 +26,6 @@ from .sentence import RATE, VOICE, Sentence
 
 #: What may lag a moment behind a drag does so for this long.
 LATE_MS = 120
-CAPTION_MS = 500
 
 
 class Wiring(QObject):
@@ -45,11 +45,9 @@ class Wiring(QObject):
         self._late.setSingleShot(True)
         self._late.setInterval(LATE_MS)
         self._late.timeout.connect(self._show_weak)
-        self._caption = QTimer(self)
-        self._caption.setInterval(CAPTION_MS)
-        self._caption.timeout.connect(self._show_caption)
         self.bigram = OpenBigram(parts, self)
         self.sentence = Sentence(parts, self)
+        self.character = Character(parts, self)
         self._connect_document()
         self._connect_views()
         self._connect_menu()
@@ -58,7 +56,6 @@ class Wiring(QObject):
         self._window.bigram_transport.set_length(BIGRAM_SECONDS)
         self._window.canvas.setFocus()
         self._window.may_close = self._may_close
-        self._caption.start()
 
     # ── connections ──────────────────────────────────────────────────────────────────────────────
 
@@ -88,16 +85,6 @@ class Wiring(QObject):
         preview.sentence_moment.connect(self._sentence_moment)
         preview.weights_changed.connect(w.weights.set_weights)
         preview.bigram_moment.connect(w.canvas.set_playhead)
-        preview.frame_ready.connect(w.face_view.set_frame)
-        preview.failed.connect(lambda reason: w.face_view.set_message(reason, retry=True))
-        w.face_view.orbited.connect(preview.orbit)
-        w.face_view.panned.connect(preview.pan)
-        w.face_view.zoomed.connect(preview.zoom)
-        w.face_view.reset_wanted.connect(preview.reset_view)
-        w.face_view.cutaway_wanted.connect(preview.cut_away)
-        w.face_view.cutaway_wanted.connect(w.face_view.set_cutaway)
-        w.face_view.retry_wanted.connect(preview.worker.retry)
-        w.face_view.resized.connect(preview.resize)
 
     def _connect_menu(self) -> None:
         a, w = self._window.actions_, self._window
@@ -137,6 +124,7 @@ class Wiring(QObject):
         self._statuses = {(a, b): curve_set.status_of((a, b)) for a in curve_set.phonemes for b in curve_set.phonemes}
         self._show_statuses()
         self.bigram.set_replaced()
+        self.character.set_poses(curve_set.poses)
 
     def _bigram_changed(self, pair: Pair) -> None:
         curve_set = self._document.curve_set
@@ -228,12 +216,6 @@ class Wiring(QObject):
         if not self._preview.shows_bigram:
             self.bigram.show_playhead(seconds)
 
-    def _show_caption(self) -> None:
-        face, ms = self._preview.face, self._preview.milliseconds
-        if face is not None and ms:
-            width, height = self._preview.frame_size
-            self._window.face_view.set_caption(f"{face.title} · {width} × {height} · {ms:.0f} ms")
-
     # ── search ───────────────────────────────────────────────────────────────────────────────────
 
     def _word_found(self, utterance: Utterance) -> None:
@@ -269,6 +251,7 @@ class Wiring(QObject):
         state, w = self._state, self._window
         w.restore_layout(state.layout("geometry"), state.layout("docks"))
         w.actions_.safe_colours.setChecked(state.flag("safe colours", False))
+        self.character.restore()
         self.sentence.set_loop(state.flag("loop", True))
         w.transport.set_speed(state.number("speed", 1.0))
         self._preview.player.set_speed(state.number("speed", 1.0))
@@ -276,11 +259,11 @@ class Wiring(QObject):
     def remember(self) -> None:
         """Keep this time's layout."""
         state, w, player = self._state, self._window, self._preview.player
+        self.character.remember()
         state.put("geometry", w.saveGeometry())
         state.put("docks", w.saveState())
         state.put("sentence", w.sentence_bar.sentence)
         state.put("safe colours", w.actions_.safe_colours.isChecked())
         state.put("loop", player.looping)
         state.put("speed", player.speed)
-        self._caption.stop()
         self._late.stop()

@@ -1,7 +1,7 @@
 """The curve canvas: the curves of the open bigram over its normalised time, to be moved by hand.
 
-Shows values, says what is wanted. While a gesture runs it shows its own working copy and tells it by
-`preview_changed`; at the end it emits `edited` once, and the owner hands the new curves back in.
+Shows values, says what is wanted. The mouse is in curve_pointer, other versions in curve_compare; here are
+the values that come down, the single actions, and the keyboard, whose keys are data in keymaps.
 """
 
 from __future__ import annotations
@@ -9,60 +9,69 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping
 
 from PySide6.QtCore import QEvent, QPointF, Qt, Signal
-from PySide6.QtGui import QAction, QContextMenuEvent, QKeyEvent, QMouseEvent
+from PySide6.QtGui import QContextMenuEvent, QGuiApplication, QKeyEvent
 from PySide6.QtWidgets import QMenu, QWidget
 
 from core_pipeline.curves import Curve
 
-from .curve_controller import CurveController, Edit, Modifiers
-from .curve_hints import hint_text, pair_title, selection_text
-from .curve_plot import CurvePlot
-from .curve_scene import KEY_REACH
+from .curve_clipboard import Copied, NotCurvesError, from_text, to_text
+from .curve_compare import CurveCompare
+from .curve_controller import CUT, Edit
+from .curve_hints import UNREADABLE, key_name
+from .curve_keyboard import HELD, held_after, key_of, modifiers_of
+from .curve_menu import CurveMenu
+from .keymaps import KEYMAPS, NEUTRAL, action_of
 
 NUDGE_STEP = 0.01
 NUDGE_FINE = 0.001
 NUDGE_COARSE = 0.05
 
+#: Pixels an arrow key moves the pointer of a gesture that no button holds.
+ARROW_PIXELS = 8.0
+
 _Key = Qt.Key
 _ARROWS = {_Key.Key_Left: (-1, 0), _Key.Key_Right: (1, 0), _Key.Key_Up: (0, 1), _Key.Key_Down: (0, -1)}
-_HELD = (_Key.Key_Shift, _Key.Key_Control, _Key.Key_Alt)
+_ENTER = (_Key.Key_Return, _Key.Key_Enter)
 
 
-def _modifiers(held: Qt.KeyboardModifier) -> Modifiers:
-    name = Qt.KeyboardModifier
-    return Modifiers(bool(held & name.ShiftModifier), bool(held & name.ControlModifier), bool(held & name.AltModifier))
-
-
-class CurveCanvas(CurvePlot):
-    """Curves of one bigram: select, move, add, delete keys; zoom and pan.
+class CurveCanvas(CurveCompare):
+    """Curves of one bigram: select, move, scale, add, delete, copy keys; swap versions; zoom and pan.
 
     Values come in by set_…; curves given while a gesture runs wait until it has ended.
     """
 
-    #: The working copies that just became others: dict pose → Curve.
-    preview_changed = Signal(object)
-    #: One gesture has ended: dict pose → Curve, None where the curve is gone; name of the gesture.
-    edited = Signal(object, str)
-    #: A gesture that sent previews has ended without an edit.
-    cancelled = Signal()
-    active_changed = Signal(str)
-    #: What is selected, as a line for the status bar.
-    selection_changed = Signal(str)
-    #: What can be done now, or why something was refused.
-    hint_changed = Signal(str)
     play_wanted = Signal()
+    #: These poses alone are to be shown, none: all again. frozenset of poses.
+    solo_wanted = Signal(object)
 
     def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(CurveController(), parent)
-        self._pair = ("", "")
-        self._last = QPointF()
-        self._panning = False
-        self._previewed = False
-        self._told_selection = ""
-        self._told_active = ""
-        self._told_hint = ""
+        super().__init__(parent)
         self.setAccessibleName(self.tr("Curves"))
-        self.viewport().setMouseTracking(True)
+        self._acts: dict[str, Callable[[], object]] = {
+            "add": self.add_key,
+            "delete": self.delete_selection,
+            "reverse": self.reverse,
+            "copy": self.copy,
+            "cut": self.cut,
+            "paste": self.paste,
+            "paste_reversed": lambda: self.paste(backwards=True),
+            "swap": self.swap,
+            "slide": self.slide,
+            "select_all": self.select_all,
+            "select_none": lambda: self.select(()),
+            "previous_key": lambda: self.select_next(-1),
+            "next_key": self.select_next,
+            "previous_pose": lambda: self.next_pose(-1),
+            "next_pose": self.next_pose,
+            "frame": self.frame,
+            "frame_all": self.frame_all,
+            "play": self.play_wanted.emit,
+            "grab": self.begin_move,
+            "scale": self.begin_scale,
+            "isolate": self.isolate,
+            "time_only": lambda: self._keep_axis("t"),
+            "weight_only": lambda: self._keep_axis("v"),
+        }
 
     # Values come down
 
@@ -78,14 +87,7 @@ class CurveCanvas(CurvePlot):
         if (first, second) != self._pair:
             self._stop()
             self._control.selection = frozenset()
-            self._pair = (first, second)
-            self._show_phones(first.capitalize(), second.capitalize())
-            self.setAccessibleName(self.tr("Curves of {0}").format(pair_title(first, second)))
-        self._tell()
-
-    def set_curves(self, curves: Mapping[str, Curve]) -> None:
-        """The curves of the open bigram, pose → curve."""
-        self._control.set_curves(curves)
+            self._show_pair(first, second)
         self._tell()
 
     def set_active(self, pose: str) -> None:
@@ -99,6 +101,11 @@ class CurveCanvas(CurvePlot):
         self._control.set_visible(poses)
         self._tell()
 
+    def set_solo(self, poses: Collection[str]) -> None:
+        """While there are any, these alone are drawn."""
+        self._control.set_solo(poses)
+        self._tell()
+
     def set_locked(self, poses: Collection[str]) -> None:
         """The poses that refuse edits."""
         self._control.set_locked(poses)
@@ -107,6 +114,11 @@ class CurveCanvas(CurvePlot):
     def set_snap(self, on: bool) -> None:
         """Whether keys keep to the grid; Ctrl does the opposite while it is held."""
         self._control.snap = on
+
+    def set_keymap(self, name: str = NEUTRAL) -> None:
+        """Which keys do what: one of keymaps.KEYMAPS (KeyError otherwise)."""
+        self._keymap = KEYMAPS[name]
+        self._tell()
 
     # What is shown, for the owner and for tests
 
@@ -126,9 +138,9 @@ class CurveCanvas(CurvePlot):
         return self._control.selection
 
     @property
-    def busy(self) -> bool:
-        """Whether a gesture is running."""
-        return self._control.busy
+    def editable(self) -> bool:
+        """Whether the active pose can be edited now."""
+        return self._control.refuses(self._control.active) is None
 
     def select(self, keys: Collection[tuple[str, int]]) -> None:
         """Selects these keys; unknown, hidden or locked ones are left out."""
@@ -144,6 +156,22 @@ class CurveCanvas(CurvePlot):
             self._control.select_all()
             self._tell()
 
+    def select_next(self, step: int = 1) -> None:
+        """The next key of the active curve, or the previous one with step −1."""
+        if not self.busy:
+            self._control.select_next(step)
+            self._tell()
+
+    def next_pose(self, step: int = 1) -> None:
+        """Makes the next visible pose active, or the previous one with step −1."""
+        if not self.busy:
+            self._control.next_pose(step)
+            self._tell()
+
+    def add_key(self) -> None:
+        """Wishes a key half way to the next one; see CurveController.add_between."""
+        self._do(self._control.add_between)
+
     def delete_selection(self) -> None:
         """Wishes the selected keys away."""
         self._do(self._control.delete)
@@ -152,98 +180,72 @@ class CurveCanvas(CurvePlot):
         """Wishes the selected keys moved by a little, as far as there is room."""
         self._do(lambda: self._control.nudge(dt, dv))
 
-    def select_next(self, step: int = 1) -> None:
-        """The next key of the active curve, or the previous one with step −1."""
+    def reverse(self) -> None:
+        """Wishes the selection mirrored in time; without a selection the active curve."""
+        self._do(self._control.reverse)
+
+    def type_value(self, axis: str, text: str, keys: Mapping[str, list[int]] | None = None) -> None:
+        """Wishes times ("t") or weights ("v") of the selection, or of `keys`, as typed: “.3”, “*0.5”, “+0.1”."""
+        self._do(lambda: self._control.type_value(axis, text, keys))
+
+    def isolate(self) -> None:
+        """Wishes the active pose shown alone, or all poses again."""
+        control = self._control
+        self.solo_wanted.emit(frozenset() if control.solo or not control.active else frozenset({control.active}))
+
+    def copy(self) -> None:
+        """Puts the selected keys on the clipboard; without a selection the active curve."""
+        copied = self._control.copy()
+        if copied is not None:
+            QGuiApplication.clipboard().setText(to_text(Copied(copied.curves, copied.whole, self._pair)))
+        self._tell()
+
+    def cut(self) -> None:
+        """Copies the selected keys and wishes them away."""
+        if self._control.selection and not self.busy:
+            self.copy()
+        self._do(lambda: self._control.delete(CUT))
+
+    def paste(self, *, backwards: bool = False) -> None:
+        """Wishes in what is on the clipboard, `backwards` mirrored in time; says so when these are no curves."""
+        self._do(lambda: self._pasted(backwards))
+
+    def _pasted(self, backwards: bool) -> Edit | None:
+        try:
+            copied = from_text(QGuiApplication.clipboard().text())
+        except NotCurvesError as reason:
+            self._control.refusal = UNREADABLE[str(reason)], ""
+            return None
+        return self._control.paste(copied, backwards=backwards)
+
+    # Gestures that no button holds
+
+    def begin_move(self) -> None:
+        """The selection follows the pointer until a click or Enter."""
+        if not self._inside:
+            self._last = QPointF(self.viewport().rect().center())
         if not self.busy:
-            self._control.select_next(step)
+            self._control.begin_move(*self._scene(self._last))
             self._tell()
 
-    def _do(self, action: Callable[[], Edit | None]) -> None:
+    def begin_scale(self) -> None:
+        """The selection stretches about its middle until a click or Enter."""
         if not self.busy:
-            self._finish(action())
-
-    # The mouse
-
-    def mousePressEvent(self, ev: QMouseEvent) -> None:
-        """Left: select, move, marquee. Middle, or Alt on nothing: pan."""
-        ev.accept()
-        self.setFocus(Qt.FocusReason.MouseFocusReason)
-        if self.busy or self._panning:
-            return
-        x, y = self._at(ev)
-        held = _modifiers(ev.modifiers())
-        left = ev.button() == Qt.MouseButton.LeftButton
-        empty = self._control.key_at(x, y) is None
-        if ev.button() == Qt.MouseButton.MiddleButton or (left and held.alt and empty):
-            self._panning, self._last = True, ev.position()
-            self._show_cursor()
-        elif left and self._area().adjusted(-KEY_REACH, -KEY_REACH, KEY_REACH, KEY_REACH).contains(x, y):
-            self._control.press(x, y, held)
+            start = self._control.begin_scale(self._scene(self._last) if self._inside else None)
+            if start is not None and not self._inside:
+                self._last = QPointF(self.viewportTransform().map(QPointF(*start)))
             self._tell()
 
-    def mouseDoubleClickEvent(self, ev: QMouseEvent) -> None:
-        """A key on the active curve; holding on, it can be moved at once, as a second gesture."""
-        ev.accept()
-        x, y = self._at(ev)
-        left, free = ev.button() == Qt.MouseButton.LeftButton, self._control.key_at(x, y) is None
-        if left and free and self._area().contains(x, y):
-            self._do(lambda: self._control.add(x, y))
-        if self._control.refusal is None:
-            self.mousePressEvent(ev)
+    def _keep_axis(self, axis: str) -> None:
+        self._control.keep_axis(axis)
+        self._move(QGuiApplication.keyboardModifiers())
 
-    def mouseMoveEvent(self, ev: QMouseEvent) -> None:
-        """Goes on with the gesture, or shows what lies under the pointer."""
-        ev.accept()
-        if self._panning:
-            if ev.buttons() == Qt.MouseButton.NoButton:
-                self._stop_panning()
-                return
-            self._pan(ev.position() - self._last)
-            self._last = ev.position()
-            return
-        self._last = ev.position()
-        if self.busy and not ev.buttons() & Qt.MouseButton.LeftButton:
-            self._release(ev)  # the release went elsewhere
-            return
-        self._move(ev.modifiers())
-
-    def _move(self, held: Qt.KeyboardModifier) -> None:
-        x, y = self._scene(self._last)
-        hover, band = self._control.hover, self._control.band
-        changed = self._control.move(x, y, _modifiers(held))
-        if changed:
-            self._previewed = True
-            self.preview_changed.emit(dict(changed))
-        if changed or self._control.hover != hover or self._control.band != band:
-            self._tell()
-
-    def mouseReleaseEvent(self, ev: QMouseEvent) -> None:
-        """Ends the gesture."""
-        ev.accept()
-        if self._panning:
-            self._stop_panning()
-        elif ev.button() == Qt.MouseButton.LeftButton and self.busy:
-            self._release(ev)
-
-    def _release(self, ev: QMouseEvent) -> None:
-        x, y = self._at(ev)
-        self._finish(self._control.release(x, y))
-
-    def _stop_panning(self) -> None:
-        self._panning = False
-        self._show_cursor()
-
-    def leaveEvent(self, ev: QEvent) -> None:
-        """Nothing is under the pointer any more."""
-        if self._control.hover is not None and not self.busy:
-            self._control.hover = None
-            self._tell()
-        ev.accept()
+    # The menu
 
     def contextMenuEvent(self, ev: QContextMenuEvent) -> None:
         """What can be done at the pointer, or with the selection when asked for by key."""
         ev.accept()
-        if self.busy or self._panning:
+        if self.busy or self._panning or self._no_menu:
             return
         by_mouse = ev.reason() == QContextMenuEvent.Reason.Mouse
         x, y = self._scene(QPointF(ev.pos())) if by_mouse else self._scene(QPointF(self.viewport().rect().center()))
@@ -258,42 +260,32 @@ class CurveCanvas(CurvePlot):
             control.set_active(key[0])
             control.selection = frozenset({key})
             self._tell()
-        menu = QMenu(self)
-        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-
-        def add(text: str, shortcut: str, act: Callable[[], object], enabled: bool = True) -> None:
-            action = QAction(text + ("\t" + shortcut if shortcut else ""), menu)
-            action.setEnabled(enabled)
-            action.triggered.connect(act)
-            menu.addAction(action)
-
-        here = key is None and self._area().contains(x, y) and control.refuses(control.active) is None
-        add(
-            self.tr("Add key to {0}").format(control.active),
-            self.tr("Double-click"),
-            lambda: self._do(lambda: control.add(x, y, anywhere=True)),
-            here,
-        )
-        add(self.tr("Delete keys"), self.tr("Del"), self.delete_selection, bool(control.selection))
-        menu.addSeparator()
-        add(self.tr("Select all keys"), self.tr("Ctrl+A"), self.select_all, bool(control.editable()))
-        add(self.tr("Frame selection"), "F", self.frame, bool(control.selection))
-        add(self.tr("Frame all"), self.tr("Home"), self.frame_all)
-        return menu
+        can = {
+            "add": key is None and self._area().contains(x, y) and self.editable,
+            "delete": bool(control.selection),
+            "cut": bool(control.selection),
+            "scale": control.box() is not None,
+            "select_all": bool(control.editable()),
+            "frame": bool(control.selection),
+        }
+        acts = {**self._acts, "add": lambda: self._do(lambda: control.add(x, y, anywhere=True))}
+        keys = {action: key_name(names[0]) for action, names in self._keymap.items()}
+        return CurveMenu(self, control.active, acts, keys, {action for action, able in can.items() if not able})
 
     # The keyboard
 
     def event(self, ev: QEvent) -> bool:
-        """Claims the canvas' own keys before a window shortcut takes them."""
-        if isinstance(ev, QKeyEvent) and ev.type() == QEvent.Type.ShortcutOverride and self._act_of(ev) is not None:
+        """Claims the canvas' own keys before a window shortcut takes them; all of them while a gesture runs."""
+        key = ev if isinstance(ev, QKeyEvent) and ev.type() == QEvent.Type.ShortcutOverride else None
+        if key is not None and (self.busy or self._act_of(key) is not None):
             ev.accept()
             return True
         return bool(super().event(ev))
 
     def keyPressEvent(self, ev: QKeyEvent) -> None:
-        """Esc, Del, arrows, Ctrl+A, comma and point, F, Home, Space; modifiers take effect in a drag at once."""
-        if ev.key() in _HELD and self._control.dragging:
-            self._move(_held_after(ev))
+        """The keymap's keys, Esc, Enter, arrows; modifiers take effect in a drag at once."""
+        if ev.key() in HELD and self._control.dragging:
+            self._move(held_after(ev))
             return
         act = self._act_of(ev)
         if act is None:
@@ -303,33 +295,29 @@ class CurveCanvas(CurvePlot):
 
     def keyReleaseEvent(self, ev: QKeyEvent) -> None:
         """A modifier let go takes effect in a drag at once."""
-        if ev.key() in _HELD and self._control.dragging:
-            self._move(_held_after(ev))
+        if ev.key() in HELD and self._control.dragging:
+            self._move(held_after(ev))
         else:
             ev.ignore()
 
     def _act_of(self, ev: QKeyEvent) -> Callable[[], object] | None:
-        key, held = ev.key(), _modifiers(ev.modifiers())
-        if key in _ARROWS and not held.alt:
-            step = NUDGE_FINE if held.shift else NUDGE_COARSE if held.ctrl else NUDGE_STEP
-            dt, dv = _ARROWS[_Key(key)]
-            return lambda: self.nudge(dt * step, dv * step)
-        if key == _Key.Key_A and held == Modifiers(ctrl=True):
-            return self.select_all
+        key, held = ev.key(), modifiers_of(ev.modifiers())
         if key == _Key.Key_Escape and (self.busy or self.selection):
             return self._escape
-        if held != Modifiers():
-            return None
-        acts: dict[int, Callable[[], object]] = {
-            _Key.Key_Delete: self.delete_selection,
-            _Key.Key_Backspace: self.delete_selection,
-            _Key.Key_Comma: lambda: self.select_next(-1),
-            _Key.Key_Period: lambda: self.select_next(1),
-            _Key.Key_F: self.frame,
-            _Key.Key_Home: self.frame_all,
-            _Key.Key_Space: self.play_wanted.emit,
-        }
-        return acts.get(key)
+        if key in _ENTER and self._control.modal:
+            return self._keep
+        if key in _ARROWS and not held.alt and not self._control.blending:
+            dt, dv = _ARROWS[_Key(key)]
+            if self._control.modal:
+                return lambda: self._steer(dt, dv, ev.modifiers())
+            step = NUDGE_FINE if held.shift else NUDGE_COARSE if held.ctrl else NUDGE_STEP
+            return lambda: self.nudge(dt * step, dv * step)
+        action = action_of(self._keymap, key_of(ev), in_gesture=self._control.dragging)
+        return self._acts[action] if action is not None else None
+
+    def _steer(self, across: int, up: int, held: Qt.KeyboardModifier) -> None:
+        self._last += QPointF(across * ARROW_PIXELS, -up * ARROW_PIXELS)
+        self._move(held)
 
     def _escape(self) -> None:
         if self.busy:
@@ -337,60 +325,3 @@ class CurveCanvas(CurvePlot):
         else:
             self._control.selection = frozenset()
         self._tell()
-
-    # Telling
-
-    def _stop(self) -> None:
-        """Ends a running gesture as if it had never been."""
-        if self._control.cancel():
-            self._finish(None)
-
-    def _finish(self, edit: Edit | None) -> None:
-        previewed, self._previewed = self._previewed, False
-        if edit is not None:
-            self.edited.emit(dict(edit.changes), edit.label)
-        elif previewed:
-            self.cancelled.emit()
-        self._tell()
-
-    def _tell(self) -> None:
-        """Says what has become different since the last time, and repaints."""
-        control = self._control
-        if control.active != self._told_active:
-            self._told_active = control.active
-            self.active_changed.emit(control.active)
-        text = selection_text(control, self._pair)
-        if text != self._told_selection:
-            self._told_selection = text
-            self.setAccessibleDescription(text)
-            self.selection_changed.emit(text)
-        hint = hint_text(control)
-        if hint != self._told_hint:
-            self._told_hint = hint
-            self.hint_changed.emit(hint)
-        self._show_cursor()
-        self._item.update()
-
-    def _show_cursor(self) -> None:
-        control = self._control
-        shape = Qt.CursorShape.CrossCursor
-        if self._panning:
-            shape = Qt.CursorShape.ClosedHandCursor
-        elif control.hover is not None and control.hover[0] in control.locked:
-            shape = Qt.CursorShape.ForbiddenCursor
-        elif control.hover is not None or control.dragging:
-            shape = Qt.CursorShape.SizeAllCursor
-        if self.viewport().cursor().shape() != shape:
-            self.viewport().setCursor(shape)
-
-    def _at(self, ev: QMouseEvent) -> tuple[float, float]:
-        self._last = ev.position()
-        return self._scene(self._last)
-
-
-def _held_after(ev: QKeyEvent) -> Qt.KeyboardModifier:
-    """The modifiers once this press or release of one of them has happened."""
-    name = Qt.KeyboardModifier
-    which = {_Key.Key_Shift: name.ShiftModifier, _Key.Key_Control: name.ControlModifier, _Key.Key_Alt: name.AltModifier}
-    own = which[_Key(ev.key())]
-    return ev.modifiers() | own if ev.type() == QEvent.Type.KeyPress else ev.modifiers() & ~own

@@ -1,255 +1,45 @@
-"""The hand on the curves: press, move, release and single actions, as edits of curves. No Qt.
+"""The hand's single actions: add, delete, nudge, reverse, paste, type, swap; each is one edit. No Qt.
 
-The canvas hands in pixels and modifiers and draws what stands here. A drag works on its own copy;
-`release` hands back one `Edit` for the whole gesture, `cancel` leaves the very objects from before.
+They do nothing while a gesture runs, and leave a `refusal` where they could do nothing.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from math import hypot
-from typing import NamedTuple
+from itertools import pairwise
+
+import numpy as np
 
 from core_pipeline.curves import MIN_GAP, Curve
 
-from .curve_geometry import feasible, shifted, snapped
-from .curve_scene import ADD_REACH, CurveScene, Key, Refusal
+from .curve_clipboard import Copied
+from .curve_edits import moved, rekeyed, reversed_keys, turned_round, with_keys
+from .curve_geometry import snapped
+from .curve_gestures import MOVE, PLAIN, SCALE, Modifiers
+from .curve_hand import CurveHand, Edit
+from .curve_scene import ADD_REACH, Key, Refusal
+from .value_text import parse_typed
 
-#: How far in pixels the pointer must go before a press is a drag.
-DRAG_THRESHOLD = 3.0
-
-#: Speed of a drag while Alt is held.
-FINE = 0.1
+__all__ = ["ADD", "DELETE", "MOVE", "NUDGE", "PLAIN", "SCALE", "CurveController", "Edit", "Modifiers"]
 
 #: The first key of a curve becomes its end key when it is nearer than this to 0 or 1.
 END_REACH = 0.02
 
-MOVE = "Move keys"
+#: Weight of the first key of a curve that is begun by key.
+FIRST_WEIGHT = 0.5
+
 ADD = "Add key"
 DELETE = "Delete keys"
+CUT = "Cut keys"
 NUDGE = "Nudge keys"
+REVERSE = "Reverse keys"
+PASTE = "Paste keys"
+TYPE = "Type values"
+SWAP = "Swap with previous version"
 
 
-class Modifiers(NamedTuple):
-    """What is held: Shift keeps to one axis, Ctrl snaps (or stops snapping), Alt is fine."""
-
-    shift: bool = False
-    ctrl: bool = False
-    alt: bool = False
-
-
-PLAIN = Modifiers()
-
-
-@dataclass(frozen=True)
-class Edit:
-    """What one gesture did: pose → new curve, None where the curve is gone; and its name."""
-
-    changes: Mapping[str, Curve | None]
-    label: str
-
-
-@dataclass
-class _Gesture:
-    """A button held down: on `key` it moves keys, else it draws a marquee.
-
-    curves, selection  as they were before
-    anchor, reached    where Alt last changed: the pointer, and the shift in pixels reached by then
-    changed            the curves that now differ from `curves`
-    """
-
-    x: float
-    y: float
-    held: Modifiers
-    key: Key | None
-    curves: Mapping[str, Curve]
-    selection: frozenset[Key]
-    anchor: tuple[float, float]
-    fine: bool
-    reached: tuple[float, float] = (0.0, 0.0)
-    started: bool = False
-    changed: dict[str, Curve] = field(default_factory=dict)
-
-    def reach(self, x: float, y: float) -> tuple[float, float]:
-        """The shift in pixels when the pointer is at (x, y)."""
-        speed = FINE if self.fine else 1.0
-        return self.reached[0] + (x - self.anchor[0]) * speed, self.reached[1] + (y - self.anchor[1]) * speed
-
-
-class CurveController(CurveScene):
-    """The scene, and the one gesture that may be running on it.
-
-    snap      whether drags and new keys keep to the grid
-    boundary  normalised time between the two phones, a magnet while snapping
-    band      the marquee's corners (x0, y0, x1, y1) in pixels while one is drawn
-    refusal   why the last action did nothing, and for which pose
-    """
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.snap = False
-        self.boundary = 0.5
-        self.band: tuple[float, float, float, float] | None = None
-        self.refusal: tuple[Refusal, str] | None = None
-        self._gesture: _Gesture | None = None
-        self._incoming: Mapping[str, Curve] | None = None
-
-    def set_curves(self, curves: Mapping[str, Curve]) -> None:
-        """As in the scene; while a gesture runs the curves wait until it has ended."""
-        if self._gesture is not None:
-            self._incoming = curves
-        else:
-            super().set_curves(curves)
-
-    def _prune(self) -> None:
-        if self._gesture is None:
-            super()._prune()
-
-    @property
-    def busy(self) -> bool:
-        """Whether a button is held down."""
-        return self._gesture is not None
-
-    @property
-    def dragging(self) -> bool:
-        """Whether keys are being moved: the pointer has left the threshold."""
-        return self._gesture is not None and self._gesture.started and self._gesture.key is not None
-
-    def _may(self, pose: str) -> bool:
-        why = self.refuses(pose)
-        self.refusal = (why, pose) if why is not None else None
-        return why is None
-
-    def _refuse(self, why: Refusal) -> None:
-        self.refusal = (why, self.active)
-
-    # One gesture
-
-    def press(self, x: float, y: float, held: Modifiers = PLAIN) -> None:
-        """The left button goes down."""
-        if self.busy:
-            return
-        self.refusal = None
-        key = self.key_at(x, y)
-        before = self.selection
-        if key is not None:
-            self.active, self._picked = key[0], key
-            if not self._may(key[0]):
-                return
-            if key not in before:
-                self.selection = before | {key} if held.shift else frozenset({key})
-        self._gesture = _Gesture(x, y, held, key, dict(self.curves), before, anchor=(x, y), fine=held.alt)
-
-    def move(self, x: float, y: float, held: Modifiers = PLAIN) -> Mapping[str, Curve] | None:
-        """The pointer moves; the working curves that became others, or None when none did."""
-        gesture = self._gesture
-        if gesture is None:
-            self.hover = self.key_at(x, y)
-            return None
-        if not gesture.started and hypot(x - gesture.x, y - gesture.y) < DRAG_THRESHOLD:
-            return None
-        gesture.started = True
-        if gesture.key is None:
-            self._stretch_band(gesture, x, y)
-            return None
-        changed = self._shifted(gesture.curves, *self._wish(gesture, gesture.key, x, y, held))
-        touched = changed.keys() | gesture.changed.keys()
-        now = {**gesture.curves, **changed}
-        if all(now[pose].same_as(self.curves[pose]) for pose in touched):
-            return None
-        gesture.changed, self.curves = changed, now
-        return {pose: now[pose] for pose in touched}
-
-    def _stretch_band(self, gesture: _Gesture, x: float, y: float) -> None:
-        self.band = (gesture.x, gesture.y, x, y)
-        caught = self.keys_within(*self.band)
-        if gesture.held.shift:
-            self.selection = gesture.selection | caught
-        elif gesture.held.ctrl:
-            self.selection = gesture.selection - caught
-        else:
-            self.selection = caught
-
-    def _wish(self, gesture: _Gesture, key: Key, x: float, y: float, held: Modifiers) -> tuple[float, float]:
-        """The shift (dt, dv) the pointer asks for, before it is known whether there is room."""
-        if held.alt != gesture.fine:  # go on from here, slower or faster, without a jump
-            gesture.reached = gesture.reach(x, y)
-            gesture.anchor, gesture.fine = (x, y), held.alt
-        dx, dy = gesture.reach(x, y)
-        if held.shift:
-            dx, dy = (dx, 0.0) if abs(dx) >= abs(dy) else (0.0, dy)
-        dt, dv = dx / self.view.width, -dy / self.view.height
-        if self.snap != held.ctrl and not held.alt:
-            curve = gesture.curves[key[0]]
-            t, v = float(curve.t[key[1]]), float(curve.v[key[1]])
-            if dx or not held.shift:
-                dt = snapped(t + dt, (0.0, 1.0, self.boundary)) - t
-            if dy or not held.shift:
-                dv = snapped(v + dv, (0.0, 1.0)) - v
-        return dt, dv
-
-    def _shifted(self, curves: Mapping[str, Curve], dt: float, dv: float) -> dict[str, Curve]:
-        """The curves that become others when the whole selection goes that way as far as it can."""
-        chosen = self.chosen()
-        dt_lo, dt_hi, dv_lo, dv_hi = feasible(curves, chosen)
-        dt, dv = min(max(dt, dt_lo), dt_hi), min(max(dv, dv_lo), dv_hi)
-        if dt == 0 and dv == 0:
-            return {}
-        moved = {pose: shifted(curves[pose], indices, dt, dv) for pose, indices in chosen.items()}
-        return {pose: curve for pose, curve in moved.items() if not curve.same_as(curves[pose])}
-
-    def release(self, x: float, y: float) -> Edit | None:
-        """The button goes up: the one edit of this gesture, or None when nothing changed."""
-        gesture = self._gesture
-        if gesture is None:
-            return None
-        changed = {pose: curve for pose, curve in gesture.changed.items() if self.refuses(pose) is None}
-        self.curves = dict(gesture.curves)
-        self._end()
-        edit = self._commit(changed, MOVE) if changed else None if gesture.started else self._click(gesture, x, y)
-        self._prune()
-        return edit
-
-    def _click(self, gesture: _Gesture, x: float, y: float) -> Edit | None:
-        if gesture.key is not None:
-            if not gesture.held.shift:
-                self.selection = frozenset({gesture.key})
-            elif gesture.key in gesture.selection:
-                self.selection = gesture.selection - {gesture.key}
-            return None
-        if gesture.held.ctrl:
-            return self.add(x, y, anywhere=True)
-        if not gesture.held.shift:
-            self.selection = frozenset()
-        if pose := self.pose_at(x, y):
-            self.active = pose
-        return None
-
-    def cancel(self) -> bool:
-        """Puts back what the running gesture changed; whether one was running."""
-        gesture = self._gesture
-        if gesture is None:
-            return False
-        self.curves = dict(gesture.curves)
-        if gesture.key is None:
-            self.selection = gesture.selection
-        self._end()
-        return True
-
-    def _end(self) -> None:
-        self._gesture, self.band = None, None
-        incoming, self._incoming = self._incoming, None
-        self.set_curves(self.curves if incoming is None else incoming)
-
-    def _commit(self, changes: Mapping[str, Curve | None], label: str) -> Edit:
-        """Shows the changes at once; the owner's next set_curves has the last word."""
-        curves = {**self.curves, **changes}
-        self.curves = {pose: curve for pose, curve in curves.items() if curve is not None}
-        self._prune()
-        return Edit(dict(changes), label)
-
-    # Single actions; each does nothing while a gesture runs
+class CurveController(CurveHand):
+    """All the canvas can do with curves."""
 
     def add(self, x: float, y: float, *, anywhere: bool = False) -> Edit | None:
         """A key of the active pose at (x, y), which must be near its curve unless `anywhere`; see add_at."""
@@ -284,26 +74,143 @@ class CurveController(CurveScene):
         self.selection = frozenset({(self.active, int(new.t.searchsorted(t)))})
         return edit
 
-    def delete(self) -> Edit | None:
+    def add_between(self) -> Edit | None:
+        """A key on the active curve half way from its last selected key to the next, else in its widest gap.
+
+        A pose without a curve gets one with its key at the phone boundary.
+        """
+        curve = self.curves.get(self.active)
+        if curve is None:
+            return self.add_at(self.boundary, FIRST_WEIGHT)
+        walls = np.unique(np.concatenate(([0.0], curve.t, [1.0])))
+        gaps = list(pairwise(walls.tolist()))
+        own = self.chosen().get(self.active)
+        after = [gap for gap in gaps if own and gap[0] >= curve.t[own[-1]]]
+        start, end = after[0] if after else max(gaps, key=lambda gap: gap[1] - gap[0])
+        t = (start + end) / 2
+        return self.add_at(t, float(curve.at(t)))
+
+    def delete(self, label: str = DELETE) -> Edit | None:
         """Without the selected keys; a curve that loses its last key is gone."""
         if not self._has_work():
             return None
         changes = {pose: self.curves[pose].without(indices) for pose, indices in self.chosen().items()}
         self.selection = frozenset()
-        return self._commit(changes, DELETE)
+        return self._commit(changes, label)
 
     def nudge(self, dt: float, dv: float) -> Edit | None:
         """Moves the selection by a little, as far as there is room."""
         if not self._has_work():
             return None
-        changes = self._shifted(self.curves, dt, dv)
+        changes = moved(self.curves, self.chosen(), dt, dv)
         if not changes:
             self._refuse(Refusal.NO_ROOM)
             return None
         return self._commit(changes, NUDGE)
 
-    def _has_work(self) -> bool:
+    def reverse(self) -> Edit | None:
+        """Mirrors the selection in time, without one the active curve: see curve_edits.reversed_keys."""
+        chosen = self._selection_or_active()
+        if not chosen:
+            return None
+        turned = reversed_keys(self.curves, chosen)
+        if turned is None:
+            self._refuse(Refusal.NO_ROOM)
+            return None
+        changed = {p: (curve, at) for p, (curve, at) in turned.items() if not curve.same_as(self.curves[p])}
+        return self._commit_keys(turned, REVERSE) if changed else None
+
+    def type_value(self, axis: str, text: str, keys: Mapping[str, list[int]] | None = None) -> Edit | None:
+        """Times (axis "t") or weights ("v") of the selection become what `text` says; see value_text.
+
+        keys  pose → indices instead of the selection
+        Weights are brought into [0, 1]; keys may pass one another in time, and a time without room is refused.
+        """
+        if keys is None and not self._has_work():
+            return None
         self.refusal = None
-        if not self.busy and not self.selection:
-            self._refuse(Refusal.NOTHING_SELECTED)
-        return not self.busy and bool(self.selection)
+        chosen = dict(keys) if keys is not None else self.chosen()
+        typed = parse_typed(text)
+        if self.busy or not all(self._may(pose) for pose in chosen):
+            return None
+        if typed is None:
+            self._refuse(Refusal.NOT_TYPED, text.strip())
+            return None
+        turned = {}
+        for pose, at in chosen.items():
+            curve = self.curves[pose]
+            t, v = curve.t[at], curve.v[at]
+            new = rekeyed(curve, at, typed.of(t), v) if axis == "t" else rekeyed(curve, at, t, typed.of(v))
+            if new is None:
+                self._refuse(Refusal.NO_ROOM)
+                return None
+            turned[pose] = new
+        return self._commit_keys(turned, TYPE, select=keys is None)
+
+    def copy(self) -> Copied | None:
+        """The selected keys, without a selection the active curve."""
+        chosen = self._selection_or_active(editing=False)
+        if not chosen:
+            return None
+        curves = {p: Curve(self.curves[p].t[at], self.curves[p].v[at]) for p, at in chosen.items()}
+        return Copied(curves, frozenset(p for p, at in chosen.items() if len(at) == len(self.curves[p])))
+
+    def paste(self, copied: Copied, *, backwards: bool = False) -> Edit | None:
+        """Copied curves replace those of the same poses, copied keys what lies in their time; one pose: the active's.
+
+        backwards  mirrored in time
+        """
+        if self.busy:
+            return None
+        self.refusal = None
+        curves = turned_round(copied.curves, copied.whole) if backwards else dict(copied.curves)
+        whole = copied.whole
+        if len(curves) == 1 and self.active:
+            (name,) = curves
+            curves, whole = {self.active: curves[name]}, frozenset({self.active} if name in whole else ())
+        targets = [pose for pose in curves if pose in self.poses]
+        if not targets:
+            self._refuse(Refusal.NO_SUCH_POSE, ", ".join(curves))
+            return None
+        free = [pose for pose in targets if self.refuses(pose) is None]
+        if not free:
+            self._may(targets[0])
+            return None
+        turned = {}
+        for pose in free:
+            new = curves[pose]
+            turned[pose] = (new, list(range(len(new)))) if pose in whole else with_keys(self.curves.get(pose), new)
+        return self._commit_keys(turned, PASTE)
+
+    def swap(self, other: Mapping[str, Curve]) -> Edit | None:
+        """Editable poses become as in `other`."""
+        if self.busy:
+            return None
+        self.refusal = None
+        changes = self._towards(other)
+        return self._commit(changes, SWAP) if changes else None
+
+    def _selection_or_active(self, *, editing: bool = True) -> dict[str, list[int]]:
+        """Pose → indices to work on; empty with a refusal when there are none."""
+        self.refusal = None
+        if self.busy:
+            return {}
+        if self.selection:
+            return self.chosen()
+        if self.active not in self.curves:
+            self._refuse(Refusal.NOTHING_SELECTED if editing else Refusal.NOTHING_TO_COPY)
+            return {}
+        if editing and not self._may(self.active):
+            return {}
+        return {self.active: list(range(len(self.curves[self.active])))}
+
+    def _commit_keys(
+        self, turned: Mapping[str, tuple[Curve, list[int]]], label: str, *, select: bool = True
+    ) -> Edit | None:
+        """Commits the curves that differ, and selects the keys that came with them; None when none differ."""
+        changes = {pose: curve for pose, (curve, _) in turned.items() if not curve.same_as(self.curves.get(pose))}
+        selection: frozenset[Key] = frozenset((pose, index) for pose, (_, at) in turned.items() for index in at)
+        edit = self._commit(changes, label) if changes else None
+        if select:
+            self.select(selection)
+        return edit

@@ -109,17 +109,71 @@ def feasible(curves: Mapping[str, Curve], chosen: Mapping[str, Sequence[int]]) -
     return dt_lo, dt_hi, dv_lo, dv_hi
 
 
-def shifted(curve: Curve, indices: Sequence[int], dt: float, dv: float) -> Curve:
-    """With the keys at `indices` moved by a feasible shift; values come out tidy, to six decimals."""
-    t, v = curve.t.copy(), curve.v.copy()
+def feasible_scale(
+    curves: Mapping[str, Curve], chosen: Mapping[str, Sequence[int]], pivot: tuple[float, float]
+) -> tuple[float, float, float, float]:
+    """How far the chosen keys may be stretched about `pivot` (t, v): (least, most in time, least, most in weight).
+
+    The same walls as `feasible`, and chosen keys keep MIN_GAP among themselves; factor 1 is always feasible.
+    """
+    time, weight = (0.0, np.inf), (0.0, np.inf)
+    for pose, indices in chosen.items():
+        t, v = curves[pose].t, curves[pose].v
+        at = np.asarray(indices, dtype=np.intp)
+        moving = np.zeros(t.size + 2, dtype=bool)
+        moving[at + 1] = True
+        left = np.minimum(np.concatenate(([0.0], t[:-1] + MIN_GAP)), t)
+        right = np.maximum(np.concatenate((t[1:] - MIN_GAP, [1.0])), t)
+        at_left = moving[1:-1] & ~moving[:-2]
+        at_right = moving[1:-1] & ~moving[2:]
+        time = _narrowed(time, t[at_left] - pivot[0], left[at_left] - pivot[0], above=True)
+        time = _narrowed(time, t[at_right] - pivot[0], right[at_right] - pivot[0], above=False)
+        gaps = np.diff(t)[moving[1:-2] & moving[2:-1]]
+        time = _narrowed(time, gaps, np.minimum(gaps, MIN_GAP), above=True)
+        weight = _narrowed(weight, v[at] - pivot[1], np.full(at.size, -pivot[1]), above=True)
+        weight = _narrowed(weight, v[at] - pivot[1], np.full(at.size, 1.0 - pivot[1]), above=False)
+    return min(time[0], 1.0), max(time[1], 1.0), min(weight[0], 1.0), max(weight[1], 1.0)
+
+
+def _narrowed(span: tuple[float, float], distance: Array, wall: Array, *, above: bool) -> tuple[float, float]:
+    """The factors s of `span` with s·distance ≥ wall (`above`) or ≤ wall, for every one."""
+    lo, hi = span
+    for d, w in zip(distance.tolist(), wall.tolist(), strict=True):
+        if abs(d) < 1e-9:
+            continue
+        if (d > 0) == above:
+            lo = max(lo, w / d)
+        else:
+            hi = min(hi, w / d)
+    return lo, hi
+
+
+def placed(curve: Curve, indices: Sequence[int], t: Array, v: Array) -> Curve:
+    """With the keys at `indices` at feasible new places; values come out tidy, to six decimals."""
+    times, values = curve.t.copy(), curve.v.copy()
     at = np.asarray(indices, dtype=np.intp)
-    t[at] = np.clip(t[at] + dt, 0.0, 1.0)
-    v[at] = np.clip(v[at] + dv, 0.0, 1.0)
-    tidy = t.copy()
-    tidy[at] = np.round(t[at], 6)
-    v[at] = np.round(v[at], 6)
+    times[at] = np.clip(t, 0.0, 1.0)
+    values[at] = np.round(np.clip(v, 0.0, 1.0), 6)
+    tidy = times.copy()
+    tidy[at] = np.round(times[at], 6)
     # Keys of an imported curve may stand too near for six decimals.
-    return Curve(tidy if (np.diff(tidy) > 0).all() else t, v)
+    return Curve(tidy if (np.diff(tidy) > 0).all() else times, values)
+
+
+def shifted(curve: Curve, indices: Sequence[int], dt: float, dv: float) -> Curve:
+    """With the keys at `indices` moved by a feasible shift."""
+    at = np.asarray(indices, dtype=np.intp)
+    return placed(curve, indices, curve.t[at] + dt, curve.v[at] + dv)
+
+
+def scaled(curve: Curve, indices: Sequence[int], pivot: tuple[float, float], factor_t: float, factor_v: float) -> Curve:
+    """With the keys at `indices` stretched about `pivot` by feasible factors."""
+    at = np.asarray(indices, dtype=np.intp)
+    t, v = curve.t[at], curve.v[at]
+    # Factor 1 leaves the very numbers, whatever rounding would do to them.
+    new_t = t if factor_t == 1 else pivot[0] + factor_t * (t - pivot[0])
+    new_v = v if factor_v == 1 else pivot[1] + factor_v * (v - pivot[1])
+    return placed(curve, indices, new_t, new_v)
 
 
 def snapped(value: float, magnets: Iterable[float]) -> float:

@@ -32,6 +32,7 @@ PIECE = 32
 
 _GHOST = theme.mix(theme.GHOST, theme.BACKGROUND, 0.85)
 _BOUNDARY = QColor("#4a5058")
+_BOX = theme.mix(theme.LINK, theme.BACKGROUND, 0.7)
 
 
 def polygon(points: Array) -> QPolygonF:
@@ -79,6 +80,7 @@ class CurveItem(pg.GraphicsObject):
         self._paint_played(painter)
         if drawn and drawn[0] == self.controller.active:
             self._paint_active(painter, drawn[0])
+        self._paint_box(painter)
         self._paint_selection(painter)
         self._paint_band(painter)
         if not self.controller.curves and self.empty_text:
@@ -176,6 +178,22 @@ class CurveItem(pg.GraphicsObject):
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.setPen(QPen(theme.BRIGHT, 1))
             painter.drawEllipse(QPointF(x, y), 8.0, 8.0)
+
+    def _paint_box(self, painter: QPainter) -> None:
+        control = self.controller
+        box = control.box() if control.band is None else None
+        if box is None:
+            return
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+        painter.setPen(QPen(_BOX, 1, Qt.PenStyle.DotLine))
+        left, top, right, bottom = (round(side) for side in box.corners(control.view))
+        painter.drawRect(left, top, right - left, bottom - top)
+        painter.setPen(QPen(theme.BACKGROUND, 1))
+        for handle, (x, y) in box.handles(control.view).items():
+            painter.setBrush(theme.BRIGHT if handle == control.hover_handle else theme.LINK)
+            painter.drawRect(round(x) - 4, round(y) - 4, 8, 8)
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
 
     def _paint_band(self, painter: QPainter) -> None:
         if self.controller.band is None:

@@ -10,8 +10,6 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFocusEvent, QPainter, QPaintEvent, QPen, QWheelEvent
 from PySide6.QtWidgets import QGraphicsLineItem, QWidget
 
-from core_pipeline.curves import Curve
-
 from . import theme
 from .curve_axes import UnitAxis, view_of
 from .curve_controller import CurveController
@@ -58,11 +56,6 @@ class CurvePlot(pg.PlotWidget):
     def set_spline(self, kind: str) -> None:
         """How keys are joined: "pchip", "bspline", "cardinal" or "linear"."""
         self._control.set_spline(kind)
-        self._item.update()
-
-    def set_ghost(self, curves: Mapping[str, Curve] | None) -> None:
-        """A previous version, drawn in grey; None for none."""
-        self._item.ghost = dict(curves or {})
         self._item.update()
 
     def set_played(self, lines: Mapping[str, tuple[Array, Array]] | None) -> None:

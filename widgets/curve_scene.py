@@ -8,6 +8,7 @@ from enum import Enum, auto
 from core_pipeline.curves import Curve
 
 from .curve_geometry import Array, View, distance_to_line, nearest_key, spline_points
+from .transform_box import Box, Handle
 
 #: A key: pose and index.
 Key = tuple[str, int]
@@ -28,6 +29,15 @@ class Refusal(Enum):
     OFF_CURVE = auto()
     NOTHING_SELECTED = auto()
     NO_ROOM = auto()
+    SOLOED = auto()
+    TWO_KEYS = auto()
+    NOTHING_TO_COPY = auto()
+    NOT_TYPED = auto()
+    NO_GHOST = auto()
+    NO_CURVES = auto()
+    NEWER_CURVES = auto()
+    BROKEN_CURVES = auto()
+    NO_SUCH_POSE = auto()
 
 
 class CurveScene:
@@ -38,6 +48,7 @@ class CurveScene:
     active     the pose that is picked first and gets new keys; "" when there are no poses
     selection  selected keys; never hidden or locked ones
     hover      the key under the pointer
+    visible    poses that are drawn: those with an open eye, or of these the soloed ones where there are any
     """
 
     def __init__(self) -> None:
@@ -48,6 +59,8 @@ class CurveScene:
         self.hover: Key | None = None
         self._picked: Key | None = None
         self.visible: frozenset[str] = frozenset()
+        self.solo: frozenset[str] = frozenset()
+        self._open_eyes: frozenset[str] = frozenset()
         self.locked: frozenset[str] = frozenset()
         self._view = View()
         self._kind = "pchip"
@@ -56,8 +69,8 @@ class CurveScene:
     def set_poses(self, poses: Collection[str]) -> None:
         """Other poses; all visible and unlocked, the first one active unless the active one is among them."""
         self.poses = tuple(poses)
-        self.visible = frozenset(self.poses)
-        self.locked = frozenset()
+        self.visible = self._open_eyes = frozenset(self.poses)
+        self.locked = self.solo = frozenset()
         if self.active not in self.poses:
             self.active = self.poses[0] if self.poses else ""
         self._prune()
@@ -76,7 +89,16 @@ class CurveScene:
 
     def set_visible(self, poses: Collection[str]) -> None:
         """Only these are drawn and can be picked; the data of the others stays."""
-        self.visible = frozenset(poses)
+        self._open_eyes = frozenset(poses)
+        self._look()
+
+    def set_solo(self, poses: Collection[str]) -> None:
+        """While there are any, these alone are drawn and can be picked, whatever the eyes say."""
+        self.solo = frozenset(poses) & frozenset(self.poses)
+        self._look()
+
+    def _look(self) -> None:
+        self.visible = self.solo or self._open_eyes
         self._prune()
 
     def set_locked(self, poses: Collection[str]) -> None:
@@ -177,7 +199,7 @@ class CurveScene:
         if pose not in self.poses:
             return Refusal.NO_POSE
         if pose not in self.visible:
-            return Refusal.HIDDEN
+            return Refusal.SOLOED if self.solo else Refusal.HIDDEN
         return Refusal.LOCKED if pose in self.locked else None
 
     @property
@@ -191,6 +213,15 @@ class CurveScene:
         for pose, index in sorted(self.selection):
             result.setdefault(pose, []).append(index)
         return result
+
+    def box(self) -> Box | None:
+        """Around the selection, None when there is nothing in it to scale."""
+        return Box.around(self.curves, self.chosen())
+
+    def handle_at(self, x: float, y: float) -> Handle | None:
+        """The handle of the transform box within reach."""
+        box = self.box()
+        return None if box is None else box.handle_at(self._view, x, y)
 
     def select(self, keys: Collection[Key]) -> None:
         """Selects these keys; unknown, hidden or locked ones are left out."""
@@ -214,3 +245,10 @@ class CurveScene:
         else:
             index = (own[-1] if step > 0 else own[0]) + step
         self.selection = frozenset({(self.active, index % count)})
+
+    def next_pose(self, step: int) -> None:
+        """Makes the next visible pose active (step 1), or the previous one (−1)."""
+        seen = [pose for pose in self.poses if pose in self.visible]
+        if seen:
+            at = seen.index(self.active) if self.active in seen else -step
+            self.active = seen[(at + step) % len(seen)]

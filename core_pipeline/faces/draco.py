@@ -20,7 +20,7 @@ def unpack(gltf: GltfFile, primitive: Json) -> None:
     if not packed:
         return
     try:
-        import DracoPy
+        import DracoPy  # type: ignore[import-not-found, import-untyped, unused-ignore]
     except ImportError:
         raise gltf.fail(
             'it is compressed with Draco: install Lipstitch with the extra “draco” (pip install "lipstitch[draco]"), '
@@ -51,7 +51,7 @@ def _give(gltf: GltfFile, index: object, values: Any, name: str) -> None:
     announced = gltf.count(index)
     if len(values) != announced:
         raise gltf.fail(
-            f"its Draco data holds {len(values):,} {name[:40]} where {announced:,} are announced, so the shapes would not "
-            "fit; export it without compression."
+            f"its Draco data holds {len(values):,} {name[:40]} where {announced:,} are announced, so "
+            "the shapes would not fit; export it without compression."
         )
     gltf.decoded(index, values)

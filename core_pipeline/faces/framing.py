@@ -8,13 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core_pipeline.faces.face import Camera, Face, Floats
+from core_pipeline.faces.retarget import normalised
 
 _FOV = 24.0
 #: Height of the picture in heights of what moves: brow to chin is about two thirds of a head.
 _AROUND = 0.9
 #: Vertices that move less than this part of the largest motion do not tell where the face is.
 _MOVES = 0.05
-_LONGER = 1.15
+_LONGER = 1.1
+_OPEN = frozenset({"jawopen", "open", "mouthopen", "visemeaa", "jawdrop", "vopen", "aa", "fclmtha", "a"})
 
 
 def frame(positions: Floats) -> Camera:
@@ -43,8 +45,8 @@ def head_height(face: Face) -> float:
 def turned_upright(face: Face) -> tuple[Face, tuple[str, ...]]:
     """The face with +y up and looking along +z, and what had to be done for that.
 
-    Rigs exported with +z up lie on their back: higher in z than in y, and their shapes move them along z more than
-    along y. VRM 0 avatars look backwards: what moves lies behind the middle of the head.
+    Rigs exported with +z up lie on their back. VRM 0 avatars look backwards: what moves lies behind the middle of
+    the head.
     """
     notes: list[str] = []
     moved = _moving(face)
@@ -72,14 +74,26 @@ def _moving(face: Face) -> NDArray[np.bool_]:
     furthest = np.zeros(len(face.positions), np.float32)
     for delta in face.deltas:
         np.maximum(furthest, np.einsum("ij,ij->i", delta, delta), out=furthest)
-    return furthest > _MOVES**2 * furthest.max(initial=0.0)
+    moved: NDArray[np.bool_] = furthest > _MOVES**2 * furthest.max(initial=0.0)
+    return moved
 
 
 def _lies(face: Face, moved: NDArray[np.bool_]) -> bool:
-    """Whether z is up."""
-    _, y, z = np.ptp(_near(face, moved), axis=0)
-    along = np.abs(face.deltas).sum(axis=(0, 1))
-    return bool(z > _LONGER * y and along[2] > along[1])
+    """Whether z is up: the head is higher in z than in y, and the jaw drops along z.
+
+    A jaw drops and goes back; where it goes back along y, it seems to rise.
+    """
+    _, high, deep = np.ptp(_near(face, moved), axis=0)
+    _, up, out = _opening(face).sum(axis=0)
+    return bool(deep > _LONGER * high and out < 0 and (up > 0 or out < up))
+
+
+def _opening(face: Face) -> Floats:
+    """(n, 3) what opens the mouth: by its name, else the shape that moves most."""
+    named = [row for row, shape in enumerate(face.shapes) if normalised(shape) in _OPEN]
+    most = int(np.abs(face.deltas).sum(axis=(1, 2)).argmax())
+    opening: Floats = face.deltas[named[0] if named else most]
+    return opening
 
 
 def _looks_back(face: Face, moved: NDArray[np.bool_]) -> bool:

@@ -145,7 +145,7 @@ def _sampled(picture: Picture, places: NDArray[np.float64], modes: tuple[Any, An
     at = np.stack([_wrapped(places[:, axis], mode) for axis, mode in enumerate(modes)], -1)
     column = np.minimum((at[:, 0] * width).astype(np.int64), width - 1)
     row = np.minimum((at[:, 1] * height).astype(np.int64), height - 1)
-    values = picture[row, column].astype(np.float32) / 255
+    values: Floats = picture[row, column].astype(np.float32) / 255
     rgb = values[:, :3]
     values[:, :3] = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
     return values

@@ -67,7 +67,7 @@ def _world(gltf: GltfFile) -> dict[int, Matrix]:
     if gltf.items("scenes"):
         roots = gltf.numbers(gltf.item("scenes", gltf.json.get("scene", 0)), "nodes")
     placed: dict[int, Matrix] = {}
-    waiting = deque((root, np.eye(4)) for root in roots)
+    waiting: deque[tuple[int, Matrix]] = deque((root, np.eye(4)) for root in roots)
     while waiting:
         index, above = waiting.popleft()
         node = gltf.item("nodes", index)

@@ -62,7 +62,8 @@ def _attributes(data: bytes, count: int, stride: int) -> Bytes:
             deltas[rows[mine][:, None] + _SIXTEEN, columns[mine][:, None]] = values
     deltas = deltas[:count]
     steps = (deltas >> 1) ^ (np.uint8(0) - (deltas & 1))
-    return np.cumsum(steps, axis=0, dtype=np.uint8) + raw[len(data) - stride :]
+    unpacked: Bytes = np.cumsum(steps, axis=0, dtype=np.uint8) + raw[len(data) - stride :]
+    return unpacked
 
 
 def _groups(raw: Bytes, end: int, count: int, stride: int, block: int) -> tuple[NDArray[np.intp], ...]:
@@ -113,14 +114,16 @@ def _lengths(raw: Bytes, bits: int) -> list[int]:
 def _values(raw: Bytes, places: NDArray[np.intp], kind: int) -> Bytes:
     """(groups, 16) zigzag differences."""
     if kind == 3:
-        return raw[places[:, None] + _SIXTEEN]
+        whole: Bytes = raw[places[:, None] + _SIXTEEN]
+        return whole
     bits = 2 * kind
     each = 8 // bits
     top = (1 << bits) - 1
     small = raw[places[:, None] + _SIXTEEN // each] >> (8 - bits - bits * (_SIXTEEN % each)) & top
     escaped = small == top
     after = places[:, None] + 2 * bits + np.cumsum(escaped, axis=1) - escaped
-    return np.where(escaped, raw[np.minimum(after, len(raw) - 1)], small).astype(np.uint8)
+    values: Bytes = np.where(escaped, raw[np.minimum(after, len(raw) - 1)], small).astype(np.uint8)
+    return values
 
 
 def _varint(data: bytes, at: int) -> tuple[int, int]:
@@ -155,67 +158,79 @@ def _indices(data: bytes, count: int) -> list[int]:
 def _triangles(data: bytes, count: int) -> list[int]:
     if data[:1] != b"\xe1" or count % 3:
         raise ValueError("its triangles are of an unknown version")
-    end = len(data) - 16
-    at = 1 + count // 3
-    edges, corners, edge, corner = [(0, 0)] * 16, [0] * 16, 0, 0
-    fresh = last = 0
+    reader = _Triangles(data, count // 3)
     found: list[int] = []
-    for code in data[1:at]:
-        seen = []  # vertices to be remembered
-        if code < 0xF0:
-            a, b = edges[edge - 1 - (code >> 4) & 15]
-            third = code & 15
-            if third == 0:
-                c = fresh
-                fresh += 1
-                seen.append(c)
-            elif third < 13:
-                c = corners[corner - 1 - third & 15]
-            else:
-                if third == 15:
-                    step, at = _varint(data, at)
-                    last += _signed(step)
-                else:
-                    last += -1 if third == 13 else 1
-                c = last
-                seen.append(c)
-            new = ((c, b), (a, c))
-        else:
-            if code < 0xFE:
-                kinds = 0, data[end + (code & 15)] >> 4, data[end + (code & 15)] & 15
-            else:
-                kinds = 0 if code == 0xFE else 15, data[at] >> 4, data[at] & 15
-                if not data[at]:
-                    fresh = 0
-                at += 1
-            three = []
-            for kind in kinds:
-                if kind == 0:
-                    three.append(fresh)
-                    fresh += 1
-                elif kind < 15 or code < 0xFE:
-                    three.append(corners[corner - kind & 15])
-                else:
-                    three.append(-1)
-            for place, kind in enumerate(kinds):
-                if kind == 15 and code >= 0xFE:
-                    step, at = _varint(data, at)
-                    last += _signed(step)
-                    three[place] = last
-                if place == 0 or kind == 0 or (kind == 15 and code >= 0xFE):
-                    seen.append(three[place])
-            a, b, c = three
-            new = ((b, a), (c, b), (a, c))
-        for vertex in seen:
-            corners[corner & 15] = vertex
-            corner += 1
-        for pair in new:
-            edges[edge & 15] = pair
-            edge += 1
-        found += (a, b, c)
-    if at != end or len(found) != count:
+    for code in data[1 : 1 + count // 3]:
+        found += reader.beside(code) if code < 0xF0 else reader.alone(code)
+    if reader.at != len(data) - 16 or len(found) != count:
         raise ValueError("its triangles are cut off")
     return found
+
+
+class _Triangles:
+    """Triangles as one byte each, which points back at the last sixteen edges and vertices."""
+
+    def __init__(self, data: bytes, count: int) -> None:
+        self.at = 1 + count
+        self._data = data
+        self._edges = [(0, 0)] * 16
+        self._corners = [0] * 16
+        self._edge = self._corner = 0
+        self._fresh = self._last = 0
+
+    def beside(self, code: int) -> tuple[int, int, int]:
+        """A triangle on a recent edge."""
+        a, b = self._edges[self._edge - 1 - (code >> 4) & 15]
+        third = code & 15
+        if 0 < third < 13:
+            c = self._corners[self._corner - 1 - third & 15]
+        else:
+            c = self._near(third) if third else self._new()
+            self._remember(c)
+        self._remember_edges((c, b), (a, c))
+        return a, b, c
+
+    def alone(self, code: int) -> tuple[int, int, int]:
+        """A triangle that names its three corners: new, recent, or (with the codes 254 and 255) spelled out."""
+        if code < 0xFE:
+            packed, spelled = self._data[len(self._data) - 16 + (code & 15)], False
+        else:
+            packed, spelled = self._data[self.at], True
+            self.at += 1
+            if not packed:
+                self._fresh = 0
+        kinds = (15 if code == 0xFF else 0, packed >> 4, packed & 15)
+        # recent vertices are counted from before this triangle; spelled ones are read after all new ones are given
+        a, b, c = (self._new() if not kind else self._corners[self._corner - kind & 15] for kind in kinds)
+        if spelled:
+            a, b, c = (self._near(15) if kind == 15 else v for kind, v in zip(kinds, (a, b, c), strict=True))
+        for kind, vertex in zip(kinds, (a, b, c), strict=True):
+            if not kind or (spelled and kind == 15):
+                self._remember(vertex)
+        self._remember_edges((b, a), (c, b), (a, c))
+        return a, b, c
+
+    def _new(self) -> int:
+        self._fresh += 1
+        return self._fresh - 1
+
+    def _near(self, kind: int) -> int:
+        """A vertex by its distance from the last one spelled out: one before, one after, or written down."""
+        step = {13: -1, 14: 1}.get(kind)
+        if step is None:
+            value, self.at = _varint(self._data, self.at)
+            step = _signed(value)
+        self._last += step
+        return self._last
+
+    def _remember(self, vertex: int) -> None:
+        self._corners[self._corner & 15] = vertex
+        self._corner += 1
+
+    def _remember_edges(self, *edges: tuple[int, int]) -> None:
+        for edge in edges:
+            self._edges[self._edge & 15] = edge
+            self._edge += 1
 
 
 def _octahedral(packed: Bytes, stride: int) -> NDArray[np.signedinteger]:
@@ -252,7 +267,8 @@ def _exponential(packed: Bytes, _stride: int) -> NDArray[np.floating]:
     """24 bits of mantissa, 8 of exponent → float32."""
     whole = packed.view("<i4")
     with np.errstate(over="ignore"):
-        return np.ldexp((whole << 8 >> 8).astype(np.float64), whole >> 24).astype("<f4")
+        floats: NDArray[np.floating] = np.ldexp((whole << 8 >> 8).astype(np.float64), whole >> 24).astype("<f4")
+    return floats
 
 
 _FILTERS: dict[str, tuple[tuple[int, ...], Callable[[Bytes, int], NDArray[np.generic]]]] = {

@@ -51,10 +51,7 @@ def open_face(
     UserError when there is nothing to open, or it is damaged, or too large.
     """
     ours = path.is_dir() and (path / "face.glb").is_file()
-    if ours:
-        face, notes = face_folder.load(path), ()
-    else:
-        face, notes = _rig(path, cache, cancelled)
+    face, notes = (face_folder.load(path), ()) if ours else _rig(path, cache, cancelled)
     retarget = _retarget(path, face, presets, poses, ours)
     face = replace(face, pose_map=retarget.poses)
     return Opened(face, retarget, (*notes, *retarget.notes, *_still_poses(face, retarget.poses)))

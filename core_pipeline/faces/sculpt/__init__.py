@@ -8,11 +8,13 @@ from pathlib import Path
 from core_pipeline.faces.face_folder import save
 from core_pipeline.faces.sculpt.build import sculpt
 from core_pipeline.faces.sculpt.character import Character
+from core_pipeline.faces.sculpt.crab import CRAB
+from core_pipeline.faces.sculpt.man import MAN
 from core_pipeline.faces.sculpt.toon import TOON
 from core_pipeline.faces.sculpt.woman import WOMAN
 
-HUMANS: tuple[Character, ...] = (TOON, WOMAN)
-CHARACTERS: tuple[Character, ...] = HUMANS
+HUMANS: tuple[Character, ...] = (TOON, WOMAN, MAN)
+CHARACTERS: tuple[Character, ...] = (*HUMANS, CRAB)
 
 
 def build_all(folder: str | Path, progress: Callable[[int, int, str], None] | None = None) -> list[Path]:

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 from core_pipeline.faces.face import Face
 from core_pipeline.faces.normals import VertexNormals, seam_groups
 from core_pipeline.faces.sculpt.character import Character
+from core_pipeline.faces.sculpt.crab_body import Crab
+from core_pipeline.faces.sculpt.crab_pieces import crab_pieces
 from core_pipeline.faces.sculpt.eyes import eyes
 from core_pipeline.faces.sculpt.hair import hair
 from core_pipeline.faces.sculpt.lashes import lashes
@@ -36,6 +38,8 @@ def sculpt(character: Character) -> Face:
 
 def pieces(character: Character) -> list[Piece]:
     """Everything the face is made of."""
+    if isinstance(character, Crab):
+        return crab_pieces(character)
     ball = character.eyes.radius * LID
     clay = Solid((*character.clay, Blob(character.eyes.centre, (ball, ball, ball), 0.13, mirrored=True)))
     lips = Lips(character, clay)

@@ -16,7 +16,10 @@ Pair = tuple[float, float]
 
 @dataclass(frozen=True)
 class Mouth:
-    """The lips at rest, and what lies behind them; `rim` is how high each lip is at least, also at the corners."""
+    """The lips at rest, and what lies behind them; `rim` is how high each lip is at least, also at the corners.
+
+    inset  0…1: how far the inside of the corners is drawn in; on a strongly curved face it would come out beside them
+    """
 
     height: float = -0.42
     half_width: float = 0.36
@@ -31,6 +34,7 @@ class Mouth:
     corner_jaw: float = 0.36
     hinge: Point = (0.0, -0.10, -0.05)
     bag: tuple[float, float, float] = (0.40, 0.24, 0.62)
+    inset: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -104,6 +108,7 @@ class Eyes:
     skew     of the upper and lower lid: + has its peak nearer to the temple, − nearer to the nose
     pointed  shape of the corners: 1 is an ellipse's, more is narrower
     spread   how much farther than to the sides the rings of the mesh round a narrow eye reach up and down
+    ease     0…1 how much less the skin round the corners follows a blink
     crease   how deep the fold above the upper lid is drawn, 0…1
     shut     where a blink's lids meet: 0 at the lower lid's edge, 1 at the upper one's
     lashes   single lashes on each upper lid
@@ -124,6 +129,7 @@ class Eyes:
     skew: Pair = (0.0, 0.0)
     pointed: float = 1.1
     spread: float = 0.0
+    ease: float = 0.0
     crease: float = 0.0
     shut: float = 0.36
     lashes: int = 0
@@ -214,7 +220,7 @@ class Body:
 
 @dataclass(frozen=True)
 class Palette:
-    """Colours of the parts."""
+    """Colours of the parts; `stubble` 0…1 is the shadow of a beard, in the colour of the brows."""
 
     skin: Point = (0.93, 0.69, 0.56)
     blush: Point = (0.93, 0.45, 0.40)
@@ -231,6 +237,7 @@ class Palette:
     lash: Point = (0.20, 0.10, 0.07)
     shirt: Point = (0.16, 0.50, 0.56)
     shirt_trim: Point = (0.95, 0.90, 0.80)
+    stubble: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from core_pipeline.faces.sculpt.sdf import Blob
 
 CLAY = (
     Blob((0, -0.16, 0.06), (0.86, 0.56, 0.70), 0.1),  # body
-    Blob((0, -0.36, 0.34), (0.52, 0.30, 0.40), 0.25),  # jaw
+    Blob((0, -0.38, 0.34), (0.54, 0.30, 0.44), 0.25),  # jaw
     Blob((0, 0.18, -0.02), (1.10, 0.34, 0.84), 0.10),  # carapace
     Blob((0, 0.34, -0.04), (0.78, 0.34, 0.62), 0.20),  # its dome
 )
@@ -24,14 +24,15 @@ POSES = {
     ),
     "mouth OO": MouthPose(
         rounded=1.0, hole=(0.11, 0.12), ring=0.105, forward=0.14,
-        upper_teeth=(0.14, -0.10), lower_teeth=(-0.12, -0.10),
+        upper_teeth=(0.16, -0.12), lower_teeth=(-0.17, -0.12),
         tongue=TongueBend(((-0.36, -0.72), (-0.20, -0.68), (-0.24, -0.54), (-0.24, -0.44))),
     ),
     "bare teeth": MouthPose(
         width=0.10, raise_upper=0.10, drop_lower=0.075, roll_upper=8, roll_lower=8, thick=-0.12, corners=0.015, flat=1.0,
+        lower_teeth=(0.045, 0.0),
     ),
     "smile": MouthPose(
-        width=0.16, corners=0.12, raise_upper=-0.035, drop_lower=0.035, thick=-0.10, cheeks=0.06, forward=-0.01
+        width=0.16, corners=0.105, raise_upper=-0.035, drop_lower=0.035, thick=-0.10, cheeks=0.06, forward=-0.01
     ),
     "frown": MouthPose(
         width=-0.06, corners=-0.17, raise_upper=0.03, drop_lower=-0.03, thick=0.10, thick_lower=0.1, forward=0.03,
@@ -56,23 +57,23 @@ POSES = {
 
 CLAW = Claw(
     arm=Horn(
-        ((0.72, -0.22, 0.16), (1.12, -0.42, 0.36), (1.22, -0.20, 0.56), (1.12, 0.0, 0.58)),
+        ((0.80, -0.20, 0.10), (1.14, -0.42, 0.30), (1.22, -0.20, 0.56), (1.12, 0.0, 0.58)),
         ((0.0, 0.15), (0.35, 0.12), (0.7, 0.13), (0.9, 0.09), (1.0, 0.06)),
         reference=(0.0, 0.0, 1.0),
-        rows=14,
+        rows=11,
     ),
     palm=Horn(
         ((1.11, -0.04, 0.58), (1.16, 0.14, 0.60), (1.46, 0.30, 0.62), (1.30, 0.62, 0.64), (1.08, 0.66, 0.64)),
         ((0.0, 0.05), (0.08, 0.12), (0.32, 0.205), (0.6, 0.13), (0.85, 0.07), (1.0, 0.012)),
         flat=0.8,
-        rows=20,
+        rows=16,
         sides=14,
     ),
     finger=Horn(
         ((1.12, 0.24, 0.60), (0.88, 0.30, 0.62), (0.86, 0.56, 0.64), (1.10, 0.62, 0.65)),
         ((0.0, 0.06), (0.15, 0.10), (0.5, 0.085), (0.85, 0.045), (1.0, 0.01)),
         flat=0.85,
-        rows=16,
+        rows=13,
         sides=12,
     ),
 )
@@ -81,25 +82,25 @@ CLAW = Claw(
 def _leg(forward: float, out: float, low: float) -> Horn:
     return Horn(
         (
-            (0.45, -0.42, forward),
-            (0.45 + 0.75 * out, -0.10, 1.3 * forward - 0.02),
-            (0.45 + 1.25 * out, -0.42, 1.5 * forward),
-            (0.45 + 0.98 * out, low - 0.04, 1.6 * forward),
-            (0.45 + 0.86 * out, low, 1.7 * forward),
+            (0.64, -0.36, forward),
+            (0.64 + 0.58 * out, -0.10, 1.4 * forward - 0.02),
+            (0.46 + 1.25 * out, -0.42, 1.6 * forward),
+            (0.46 + 0.98 * out, low - 0.04, 1.8 * forward),
+            (0.46 + 0.86 * out, low, 1.9 * forward),
         ),
-        ((0.0, 0.11), (0.3, 0.095), (0.52, 0.10), (0.75, 0.055), (1.0, 0.012)),
-        rows=16,
+        ((0.0, 0.09), (0.3, 0.095), (0.52, 0.10), (0.75, 0.055), (1.0, 0.012)),
+        rows=13,
         sides=8,
     )
 
 
 def _spike(x: float, y: float, z: float) -> Horn:
     return Horn(
-        ((0.93 * x, y, 0.93 * z), (1.0 * x, y + 0.01, 1.0 * z), (1.07 * x, y + 0.05, 1.07 * z)),
-        ((0.0, 0.075), (0.6, 0.05), (1.0, 0.01)),
+        ((0.94 * x, y, 0.94 * z), (1.085 * x, y + 0.05, 1.085 * z)),
+        ((0.0, 0.07), (0.5, 0.05), (1.0, 0.008)),
         reference=(0.0, 1.0, 0.0),
-        rows=7,
-        sides=9,
+        rows=5,
+        sides=10,
     )
 
 
@@ -111,16 +112,17 @@ CRAB = Crab(
     rest_tongue=REST,
     mouth=Mouth(
         height=-0.25, half_width=0.46, smile=0.07, upper=0.05, lower=0.062, upper_depth=0.036, lower_depth=0.042,
-        lap=0.055, bow=0.0, hinge=(0.0, 0.0, -0.05), bag=(0.46, 0.26, 0.60),
+        lap=0.055, bow=0.0, hinge=(0.0, 0.0, -0.05), bag=(0.58, 0.32, 0.62), inset=1.0,
     ),
     teeth=Dentition(
-        half_width=0.42, depth=0.50, behind_lips=0.09, upper_height=0.17, lower_height=0.15, edge=-0.02, per_side=5
+        half_width=0.46, depth=0.46, behind_lips=0.085, upper_height=0.17, lower_height=0.14, edge=-0.02,
+        bite=0.042, per_side=4
     ),
     eyes=Eyes(centre=(0.34, 0.98, 0.30), radius=0.27, yaw=8, gaze=(3, -2), iris=36, pupil=20, iris_colour=(0.20, 0.56, 0.42)),
     stalks=Stalks(foot=(0.30, 0.50, 0.22)),
     claw=CLAW,
     left_claw=0.86,
-    legs=(_leg(0.20, 0.66, -1.08), _leg(-0.02, 0.84, -1.04), _leg(-0.26, 0.98, -0.98)),
+    legs=(_leg(0.12, 0.68, -1.08), _leg(-0.06, 0.84, -1.04), _leg(-0.26, 0.98, -0.98)),
     spikes=(_spike(0.66, 0.14, 0.66), _spike(0.90, 0.15, 0.44), _spike(1.04, 0.16, 0.20), _spike(1.08, 0.17, -0.08)),
     spots=(
         Spot((0.16, 0.50, 0.50), 0.055), Spot((0.62, 0.50, 0.40), 0.075), Spot((0.50, 0.50, 0.62), 0.04),
@@ -128,6 +130,7 @@ CRAB = Crab(
     ),
     middle=(0.0, -0.04, 0.0),
     brim=0.03,
+    sky=0.5,
     palette=Palette(
         skin=(0.87, 0.25, 0.12), blush=(0.95, 0.42, 0.34), lid=(0.80, 0.22, 0.11), lip=(0.90, 0.40, 0.29),
         inner_lip=(0.45, 0.12, 0.12), gums=(0.74, 0.30, 0.32), tongue=(0.90, 0.42, 0.46),

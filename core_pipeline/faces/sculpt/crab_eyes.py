@@ -12,11 +12,11 @@ from core_pipeline.faces.sculpt.horn import Horn, horn
 from core_pipeline.faces.sculpt.piece import Piece, grid, linear, mirror, paint
 from core_pipeline.faces.sculpt.sdf import Array, smoothstep
 
-COLUMNS = 19
+COLUMNS = 17
 # along the visor from its edge to behind the ball: (share of the way, radius over the ball's)
 SECTION = np.array(
     [(0.03, 0.97), (0.0, 1.02), (0.0, 1.07), (0.03, 1.10), (0.10, 1.10)]
-    + [(share, 1.10 - 0.03 * share) for share in (0.2, 0.31, 0.42, 0.55, 0.7, 0.85, 1.0)]
+    + [(share, 1.10 - 0.03 * share) for share in (0.21, 0.33, 0.46, 0.6, 0.8, 1.0)]
 )
 BACK = 183.0
 CLEAR = 1.04
@@ -71,7 +71,7 @@ def _stalk(crab: Crab) -> Piece:
     wide, narrow = stalks.girth
     line = tuple((float(x), float(y), float(z)) for x, y, z in (foot, middle, top))
     girth = ((0.0, 1.5 * wide), (0.16, 1.12 * wide), (0.5, narrow), (1.0, 1.5 * narrow))
-    points, triangles, along = horn(Horn(line, girth, rows=12, sides=14))
+    points, triangles, along = horn(Horn(line, girth, rows=9, sides=12))
     stretched = points + np.outer(along, (0, stalks.lift[0], 0))
     colours = paint(len(points), crab.palette.skin, 0.5)
     colours[:, :3] *= (0.6 + 0.4 * smoothstep(0.0, 0.3, along) * smoothstep(1.0, 0.8, along))[:, None]

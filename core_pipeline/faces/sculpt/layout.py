@@ -17,6 +17,7 @@ from core_pipeline.faces.sculpt.sdf import Array
 
 Indices = NDArray[np.int64]
 RIM = 2.7
+CROWDED = 0.9
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,6 +48,16 @@ def lay_out(border: Array, eye_rings: list[Array], spacing: Callable[[Array], Ar
     seeds.append(np.stack([RIM * np.sin(np.linspace(0, np.pi, 15)), -RIM * np.cos(np.linspace(0, np.pi, 15))], -1))
     fixed = np.concatenate(seeds)
     fixed[np.abs(fixed[:, 0]) < 1e-9, 0] = 0.0
+    points, triangles = _meshed(fixed, half, loop, spacing)
+    if _missing_steps(triangles, half, loop):
+        points, triangles = _meshed(_uncrowded(fixed, half, loop), half, loop, spacing)
+    if missing := _missing_steps(triangles, half, loop):
+        raise ValueError(f"{missing} steps of a loop are no edges of the skin: space the rings round it more widely")
+    return _both_sides(points, triangles, len(half), len(loop))
+
+
+def _meshed(fixed: Array, half: Array, loop: Array, spacing: Callable[[Array], Array]) -> tuple[Array, Indices]:
+    """All the right half's points, and its triangles without those inside mouth and eye."""
     points = _scatter(fixed, half, loop, spacing)
     triangles = Delaunay(points).simplices.astype(np.int64)
     a, b, c = (points[triangles[:, i]] for i in range(3))
@@ -54,21 +65,27 @@ def lay_out(border: Array, eye_rings: list[Array], spacing: Callable[[Array], Ar
     triangles[area < 0] = triangles[area < 0][:, ::-1]
     middle = (a + b + c) / 3
     kept = (np.abs(area) > 1e-9) & ~_inside(middle, half) & ~_inside(middle, loop)
-    _check_loops(triangles[kept], np.arange(len(half)), np.append(np.arange(len(loop)), 0) + len(half))
-    return _both_sides(points, triangles[kept], len(half), len(loop))
+    return points, triangles[kept]
 
 
-def _check_loops(triangles: Indices, *paths: Indices) -> None:
-    """ValueError unless every step of the paths is an edge of the mesh: else the lips or lids would gape."""
+def _uncrowded(fixed: Array, half: Array, loop: Array) -> Array:
+    """`fixed` (loops first) without the points so near to a step of a loop that the mesh would not follow that step."""
+    count = len(half) + len(loop)
+    start = np.concatenate([half[:-1], loop])
+    end = np.concatenate([half[1:], np.roll(loop, -1, axis=0)])
+    middle, reach = (start + end) / 2, np.linalg.norm(end - start, axis=1) / 2
+    crowding = (np.linalg.norm(fixed[count:, None] - middle, axis=-1) < CROWDED * reach).any(axis=1)
+    return np.concatenate([fixed[:count], fixed[count:][~crowding]])
+
+
+def _missing_steps(triangles: Indices, half: Array, loop: Array) -> int:
+    """How many steps of the loops are no edges of the mesh: there the lips or lids would gape."""
     corners = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
     edges = {(int(a), int(b)) for a, b in np.sort(corners, axis=1)}
-    for path in paths:
-        steps = np.sort(np.stack([path[:-1], path[1:]], -1), axis=1)
-        missing = sum((int(a), int(b)) not in edges for a, b in steps)
-        if missing:
-            raise ValueError(
-                f"{missing} steps of a loop are no edges of the skin: space the rings round it more widely"
-            )
+    lips, eye = np.arange(len(half)), np.append(np.arange(len(loop)), 0) + len(half)
+    paths = [lips, eye] if len(loop) else [lips]
+    steps = np.concatenate([np.stack([path[:-1], path[1:]], -1) for path in paths])
+    return sum((int(a), int(b)) not in edges for a, b in np.sort(steps, axis=1))
 
 
 def _lip_rings(half: Array) -> list[Array]:

@@ -54,7 +54,9 @@ class Lid:
         edge = np.where(is_upper, top, bottom)
         depth = np.sqrt(np.clip(1 - p * p, 0.02, None))
         turn = np.arcsin(np.clip(shut / depth, -1, 1)) - np.arcsin(np.clip(edge / depth, -1, 1))
-        turn = turn * share
+        # skin beyond the edge would fold where the lids run together: there it follows less
+        corner = smoothstep(1.0, 0.6, np.abs(unit[:, 0]) / eyes.half_width)
+        turn = turn * share * (1 - eyes.ease * (1 - corner) * smoothstep(1.0, 0.85, share))
         c, s = np.cos(turn), np.sin(turn)
         # half way the straight line of a blendshape cuts inside the ball: the shut lid stands out to make up for it
         out = np.maximum(1, 2 * CLEAR * eyes.radius / (size * np.cos(turn / 2)) - 1)

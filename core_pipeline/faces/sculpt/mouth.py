@@ -105,6 +105,7 @@ class Lips:
         """(RINGS, columns, 3) without the jaw."""
         mouth = self.character.mouth
         v, n = PROFILE[:, 0, None], PROFILE[:, 1, None]
+        v = v * (1 - mouth.inset * (1 - self.middle) ** 4 * smoothstep(-0.7, -1.3, n))
         thin = 1 + (pose.thick + np.where(self.upper, 0, pose.thick_lower)) * smoothstep(0, 0.6, self.middle)
         thickness, depth = self.thickness * thin, self.depth * (1 + 0.5 * pose.thick)
         along, out = self.along, self.out

@@ -101,7 +101,7 @@ class Skin:
         pull = (0.5 * loose * (0.25 + 0.75 * smoothstep(0.0, 0.14, np.abs(points[:, 0]))))[:, None]
         for _ in range(12):
             points = points + pull * (self.layout.neighbour_mean(points) - points)
-        depth = 0.13 * self.character.eyes.crease * self.character.eyes.radius * self._crease(points)
+        depth = 0.045 * self.character.eyes.crease * self.character.eyes.radius * self._crease(points)
         away = points - centre
         return points - away * (depth / np.linalg.norm(away, axis=1))[:, None]
 
@@ -243,6 +243,17 @@ class Skin:
         raised: Array = face + share[:, None] * (lifted - face)
         return raised
 
+    def _beard(self, points: Array) -> Array:
+        """(n,) 1 where a beard grows: on jaw, chin and upper lip, not on cheeks and nose."""
+        x, y, z = points.T
+        mouth = self.character.mouth
+        line = mouth.height + 0.10 + 0.9 * np.clip(np.abs(x) - 0.34, 0, None)
+        jaw = smoothstep(line + 0.06, line - 0.08, y) * smoothstep(-0.10, 0.06, z + 0.25 * (y - mouth.height))
+        over_lip = np.exp(-(((y - mouth.height - 0.12) / 0.07) ** 2)) * smoothstep(0.30, 0.20, np.abs(x))
+        bare = np.exp(-((x / 0.04) ** 2)) * smoothstep(0.0, 0.10, y - mouth.height)
+        full: Array = np.maximum(jaw, over_lip) * (1 - 0.6 * bare)
+        return full * smoothstep(0.16, 0.22, np.linalg.norm(points - np.array(self.character.nose), axis=1))
+
     def _colours(self, rest: Array) -> Array:
         palette, columns = self.character.palette, self.character.lip_columns
         skin = linear(palette.skin)
@@ -273,6 +284,8 @@ class Skin:
         nose = np.exp(-(np.linalg.norm(own - np.array(self.character.nose), axis=1) ** 2) / 0.12**2)
         warm = np.clip(0.40 * cheek + 0.30 * nose, 0, 1)[:, None]
         tone += warm * (linear(palette.blush) - tone)
+        if palette.stubble:
+            tone += palette.stubble * self._beard(own)[:, None] * (linear(palette.brow) - tone)
         ratio = self._ratio[self._face_own]
         lid = smoothstep(1.45, 1.1, ratio)[:, None]
         tone += 0.7 * lid * (linear(palette.lid) - tone)

@@ -1,4 +1,4 @@
-"""Woman: fair, with freckles and auburn hair to her shoulders."""
+"""Woman: fair, green-eyed, with auburn hair to her shoulders."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ CLAY = (
     Blob((0, 0.40, -0.12), (0.74, 0.74, 0.88), 0.1),  # cranium
     Blob((0, -0.26, 0.16), (0.50, 0.54, 0.60), 0.28),  # jaw
     Blob((0.34, -0.07, 0.44), (0.24, 0.19, 0.26), 0.20, mirrored=True),  # cheekbones
+    Blob((0.27, -0.33, 0.42), (0.22, 0.22, 0.24), 0.20, mirrored=True),  # cheeks
     Blob((0.19, -0.54, 0.30), (0.20, 0.18, 0.26), 0.26, mirrored=True),  # corners of the jaw
     Blob((0, -0.42, 0.55), (0.27, 0.24, 0.26), 0.20),  # the round under nose and lips
     Blob((0, -0.73, 0.585), (0.14, 0.14, 0.17), 0.24),  # chin
@@ -57,26 +58,26 @@ WOMAN = Character(
     hair=HAIR,
     rest_tongue=REST,
     mouth=Mouth(
-        height=-0.44, half_width=0.25, smile=0.025, upper=0.042, lower=0.060, upper_depth=0.024, lower_depth=0.032,
+        height=-0.44, half_width=0.25, smile=0.035, upper=0.042, lower=0.060, upper_depth=0.024, lower_depth=0.032,
         lap=0.03, bow=1.5, rim=0.013, hinge=(0.0, -0.12, -0.08), bag=(0.32, 0.20, 0.55),
     ),
     teeth=Dentition(half_width=0.245, depth=0.36, behind_lips=0.08, edge=-0.022, upper_height=0.115, lower_height=0.10),
     eyes=Eyes(
         centre=(0.295, 0.17, 0.525), radius=0.22, half_width=0.88, upper=0.47, lower=0.33, slant=0.05, yaw=10,
-        skew=(-0.06, 0.12), iris=29, pupil=11.5, spread=1.0, shut=0.16, iris_colour=(0.30, 0.46, 0.24), crease=0.8, lashes=22, lash_length=0.22,
+        skew=(-0.06, 0.12), iris=29, pupil=11.5, spread=1.0, ease=1.0, shut=0.16, iris_colour=(0.30, 0.46, 0.24), crease=0.8, lashes=22, lash_length=0.19,
     ),
     brows=Brows(
-        line=((0.11, 0.245, 0.016), (0.20, 0.275, 0.024), (0.31, 0.305, 0.022), (0.41, 0.29, 0.015), (0.49, 0.235, 0.006)),
+        line=((0.11, 0.262, 0.016), (0.20, 0.285, 0.024), (0.31, 0.305, 0.022), (0.41, 0.29, 0.015), (0.49, 0.235, 0.006)),
         lift=0.06,
     ),
     ears=None,
-    body=Body(neck=0.27, middle=-0.20, collar=-1.32),
+    body=Body(neck=0.27, middle=-0.20, collar=-1.26),
     palette=Palette(
         skin=(0.95, 0.76, 0.66), lip=(0.82, 0.44, 0.42), lid=(0.86, 0.60, 0.52), hair=(0.34, 0.13, 0.06),
         hair_light=(0.62, 0.29, 0.13), brow=(0.38, 0.19, 0.11), lash=(0.10, 0.05, 0.04), shirt=(0.30, 0.34, 0.55),
         shirt_trim=(0.30, 0.34, 0.55),
     ),
-    camera=Camera(target=(0.0, 0.0, 0.0), distance=7.2, yaw=0.0, pitch=0.0, fov=24.0),
+    camera=Camera(target=(0.0, -0.05, 0.0), distance=6.9, yaw=0.0, pitch=0.0, fov=24.0),
     middle=(0.0, -0.34, 0.0),
     nose=(0.0, -0.14, 0.90),
     nostrils=(0.040, -0.20, 0.885),

@@ -119,8 +119,17 @@ def test_a_layout_is_mirrored_closed_and_keeps_its_loops():
     np.testing.assert_allclose(layout.points[layout.eyes[1]], layout.points[layout.eyes[0]] * (-1, 1))
 
 
-def test_a_loop_the_mesh_cannot_follow_is_refused():
+def test_rings_that_crowd_a_loop_give_way_to_it():
     eyes = [_ring(0.16, (0.5, 0.7), 4), _ring(0.115, (0.5, 0.7), 40)]
+    layout = lay_out(_ring(0.3, (0.0, 0.0), 40), eyes, lambda flat: np.full(len(flat), 0.14))
+    edges = np.sort(np.concatenate([layout.triangles[:, pair] for pair in ([0, 1], [1, 2], [2, 0])]), axis=1)
+    steps = np.sort(np.stack([layout.eyes[0], np.roll(layout.eyes[0], -1)], -1), axis=1)
+    assert {tuple(step) for step in steps} <= {tuple(edge) for edge in edges}
+
+
+def test_a_loop_the_mesh_cannot_follow_is_refused():
+    # the eye runs into the mouth
+    eyes = [_ring(0.2, (0.4, 0.1), 20), _ring(0.24, (0.4, 0.1), 20)]
     with pytest.raises(ValueError, match="steps of a loop"):
         lay_out(_ring(0.3, (0.0, 0.0), 40), eyes, lambda flat: np.full(len(flat), 0.14))
 

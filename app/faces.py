@@ -1,0 +1,70 @@
+"""Which face is shown: one of ours or a user's rig, read in a thread so that the window never waits."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Sequence
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Qt, Signal, Slot
+
+from core_pipeline.errors import UserError
+from core_pipeline.faces import rig_cache
+from core_pipeline.faces.mapping_json import load_presets
+from core_pipeline.faces.open_face import Opened, open_face
+
+from . import resources
+
+
+class Faces(QObject):
+    """Opens faces; only the latest wish counts, and a newer one ends the reading of an older.
+
+    opened(Opened)  the face is ready
+    failed(str)     why it is not; the face before stays
+    """
+
+    opened = Signal(object)
+    failed = Signal(str)
+    _done = Signal(int, object)
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.path = resources.face_folder()
+        self._number = 0
+        self._threads: list[threading.Thread] = []
+        self._done.connect(self._deliver, Qt.ConnectionType.QueuedConnection)
+
+    def open(self, path: Path, poses: Sequence[str]) -> None:
+        """Read the face at `path` for a pose set; `opened` or `failed` follows."""
+        self._number += 1
+        self.path = path
+        self._threads = [thread for thread in self._threads if thread.is_alive()]
+        thread = threading.Thread(target=self._read, args=(self._number, path, tuple(poses)), name="face reader")
+        self._threads.append(thread)
+        thread.start()
+
+    def close(self) -> None:
+        """End what is being read; nothing is emitted afterwards."""
+        self._number += 1
+        for thread in self._threads:
+            thread.join()
+
+    def _read(self, number: int, path: Path, poses: tuple[str, ...]) -> None:
+        result: Opened | Exception
+        try:
+            presets = load_presets(resources.retarget_presets())
+            result = open_face(path, presets, poses, rig_cache.user_cache(), lambda: number != self._number)
+        except Exception as error:  # noqa: BLE001 - told or raised on the thread of the interface
+            result = error
+        self._done.emit(number, result)
+
+    @Slot(int, object)
+    def _deliver(self, number: int, result: Opened | Exception) -> None:
+        if number != self._number:
+            return
+        if isinstance(result, UserError):
+            self.failed.emit(str(result))
+        elif isinstance(result, Exception):
+            raise result
+        else:
+            self.opened.emit(result)
