@@ -14,7 +14,7 @@ import sys
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Literal, NamedTuple
+from typing import Annotated, Any, Literal, NamedTuple
 
 import msgspec
 
@@ -22,7 +22,9 @@ from .curve_set import Bigram, CurveSet
 from .curves import Curve
 from .errors import UserError
 from .files.curve_set_json import save
-from .phonemes import SILENCE, Pair
+from .files.settings_json import decode_settings, unknown_fields
+from .phonemes import SILENCE, TABLE_1, Pair
+from .settings import Settings
 
 #: What a bigram made here has as its source.
 SOURCE = "phone parts"
@@ -102,9 +104,11 @@ class Closures(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 class Recipe(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     """One row per phone and the rules that turn rows into curves.
 
-    phones  phone → its row
-    beside  phone → pose → the most it allows its neighbour in their common pair
-    borrow  phone → the share it takes of the other phone's row
+    phones        phone → its row
+    beside        phone → pose → the most it allows its neighbour in their common pair
+    borrow        phone → the share it takes of the other phone's row
+    settings      what the set is made for, as in a curve set's file; without, the preset "Paper"
+    phoneme_map   language phone → one of `phonemes`; without, table 1
     """
 
     name: str
@@ -117,6 +121,8 @@ class Recipe(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     phones: dict[str, Row]
     beside: dict[str, dict[str, Weight]] = {}
     borrow: dict[str, Weight] = {}
+    settings: dict[str, Any] | None = None
+    phoneme_map: dict[str, str] | None = None
 
 
 def read_recipe(path: Path) -> Recipe:
@@ -127,6 +133,13 @@ def read_recipe(path: Path) -> Recipe:
         raise UserError(f"{path} cannot be read ({error.strerror}): check the path.") from error
     except (tomllib.TOMLDecodeError, UnicodeDecodeError, msgspec.ValidationError) as error:
         raise UserError(f"{path} is not a recipe ({error}): correct that place.") from error
+    _check_phones(recipe, path)
+    _check_settings(recipe, path)
+    return recipe
+
+
+def _check_phones(recipe: Recipe, path: Path) -> None:
+    """UserError unless every phoneme has a row and all names are known."""
     for phone in recipe.phonemes:
         if phone not in recipe.phones:
             raise UserError(f"{path} has no row for {phone}: add [phones.{phone}].")
@@ -148,7 +161,26 @@ def read_recipe(path: Path) -> Recipe:
         for pose in poses:
             if pose not in recipe.poses:
                 raise UserError(f"{path}: {phone} has the pose {pose!r}; choose among {', '.join(recipe.poses)}.")
-    return recipe
+    for name, phone in (recipe.phoneme_map or {}).items():
+        if phone not in recipe.phonemes:
+            raise UserError(f"{path}: [phoneme_map] takes {name} to {phone!r}, which is no phoneme: correct it.")
+
+
+def _check_settings(recipe: Recipe, path: Path) -> None:
+    """UserError unless the settings are possible and about the recipe's own poses."""
+    settings = _settings(recipe, str(path))
+    if settings is None:
+        return
+    if odd := sorted(unknown_fields(recipe.settings or {})):
+        raise UserError(f"{path}: [settings] has {odd[0]!r}, which is no setting: correct it.")
+    pairs = [pose for constraint in settings.constraints for pose in (constraint.a, constraint.b)]
+    for pose in (*settings.windows, *settings.priorities, *pairs):
+        if pose not in recipe.poses:
+            raise UserError(f"{path}: [settings] names the pose {pose!r}; name poses of the set, in every part.")
+
+
+def _settings(recipe: Recipe, place: str) -> Settings | None:
+    return None if recipe.settings is None else decode_settings(recipe.settings, place)
 
 
 def bigram_of(recipe: Recipe, pair: Pair, status: str = "draft") -> Bigram:
@@ -174,6 +206,8 @@ def curve_set_of(recipe: Recipe, status: str = "draft") -> CurveSet:
         phonemes=phones,
         poses=recipe.poses,
         bigrams={pair: bigram_of(recipe, pair, status) for pair in pairs},
+        phoneme_map=TABLE_1 if recipe.phoneme_map is None else recipe.phoneme_map,
+        settings=_settings(recipe, recipe.name),
     )
 
 

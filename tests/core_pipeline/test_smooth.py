@@ -24,6 +24,11 @@ def test_peaks_exactly_one_window_apart_are_joined():
     assert yellow(TWO, 0.12) == [(0, 0), (0.1, 0.8), (0.22, 0.6), (0.4, 0)]
 
 
+def test_small_peaks_count_too():
+    small = [(t, v / 1000) for t, v in TWO]
+    assert yellow(small, 0.18) == [(0, 0), (0.1, 0.0008), (0.22, 0.0006), (0.4, 0)]
+
+
 def test_a_window_of_zero_changes_nothing():
     assert yellow(TWO, 0.0) == TWO
 

@@ -57,20 +57,25 @@ def visible_triangles(
     which = np.repeat(np.arange(len(corners)), wide * tall)
     step = np.arange(len(which)) - np.repeat(np.cumsum(wide * tall) - wide * tall, wide * tall)
     column, row = low[which, 0] + step % wide[which], low[which, 1] + step // wide[which]
-    depth, inside = _depth(corners[which], column + 0.5, row + 0.5)
-    which, pixel, depth = which[inside], (row * SIZE + column)[inside], depth[inside]
-    order = np.lexsort((which, depth))
+    depth, inside = _depth(corners, which, column + 0.5, row + 0.5)
+    which, pixel = which[inside], (row * SIZE + column)[inside]
+    order = np.argsort(depth[inside], kind="stable")
     nearest = np.full(SIZE * SIZE, -1)
     nearest[pixel[order]] = which[order]
     return nearest.reshape(SIZE, SIZE)
 
 
-def _depth(corners: np.ndarray, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _depth(corners: np.ndarray, which: np.ndarray, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Depth at (x, y) on the planes of the triangles `which`, and whether it is inside them."""
     (ax, ay, az), (bx, by, bz), (cx, cy, cz) = (corners[:, i].T for i in range(3))
     area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-    area = np.where(area == 0, np.nan, area)
-    with np.errstate(invalid="ignore"):
-        v = ((x - ax) * (cy - ay) - (y - ay) * (cx - ax)) / area
-        w = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / area
+    with np.errstate(invalid="ignore", divide="ignore"):
+        # v and w, the shares of b and c, and the depth are linear in x and y
+        vx, vy = (cy - ay) / area, (ax - cx) / area
+        wx, wy = (ay - by) / area, (bx - ax) / area
+        zx, zy = vx * (bz - az) + wx * (cz - az), vy * (bz - az) + wy * (cz - az)
+        dx, dy = x - ax[which], y - ay[which]
+        v = vx[which] * dx + vy[which] * dy
+        w = wx[which] * dx + wy[which] * dy
         inside = (v >= 0) & (w >= 0) & (v + w <= 1)
-    return az + v * (bz - az) + w * (cz - az), inside
+        return az[which] + zx[which] * dx + zy[which] * dy, inside
