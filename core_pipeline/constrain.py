@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from .settings import Settings
 from .timewarp import RAMP
-from .tracks import WIDTH, ZERO, Array, Tracks, apart, minimal
+from .tracks import WIDTH, ZERO, Array, Tracks, apart, joined, minimal
 
 #: The cap where the upper pose is not active; weights are at most 1.
 FREE = 1.0
@@ -95,9 +95,7 @@ def _lower_envelope(curves: list[tuple[Array, Array]]) -> tuple[Array, Array]:
         left, width = x[i[k]], x[i[k] + 1] - x[i[k]]
         clear = np.minimum(f, 1 - f) * width > WIDTH
         crossing = (here[:, k] + f * (there[:, k] - here[:, k])).min(0)
-        x = np.concatenate((x, (left + f * width)[clear]))
-        order = x.argsort(kind="stable")
-        x, v = x[order], np.concatenate((values.min(0), crossing[clear]))[order]
+        x, v = joined(x, values.min(0), (left + f * width)[clear], crossing[clear])
     else:
         v = values.min(0)
     v[v < ZERO] = 0.0

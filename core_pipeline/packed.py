@@ -100,6 +100,7 @@ class PackedSet:
     """All closed keys of a curve set, one behind the other.
 
     keys    of every (bigram, pose), concatenated
+    ramps   which of them carry a closing ramp
     start   (poses, rows+1) where the keys of a pose of a bigram begin; row `rows` is the empty bigram
     count   (poses, rows+1) how many there are
     row_of  (phones+2, phones+2) bigram row of two phone numbers; `sil` and "unknown" come last
@@ -108,6 +109,7 @@ class PackedSet:
 
     poses: tuple[str, ...]
     keys: ClosedKeys
+    ramps: NDArray[np.bool_]
     start: Ints
     count: Ints
     row_of: Ints
@@ -129,7 +131,8 @@ class PackedSet:
                 count[row] = sizes
                 parts.append(keys)
         start = np.cumsum(count).reshape(count.shape) - count
-        return cls(poses, ClosedKeys(*np.concatenate(parts, axis=1)), start.T.copy(), count.T.copy(), row_of, number)
+        keys = ClosedKeys(*np.concatenate(parts, axis=1))
+        return cls(poses, keys, keys.ramp != 0, start.T.copy(), count.T.copy(), row_of, number)
 
     def numbers(self, phones: tuple[str, ...]) -> Ints:
         """Phone numbers (n,); an unknown phone gets the number that has no bigrams."""

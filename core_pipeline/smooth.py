@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .tracks import NEAR, ZERO, Array, Tracks, minimal, pick, weave
+from .tracks import NEAR, ZERO, Array, Tracks, joined, minimal, pick
 
 Ints = NDArray[np.intp]
 
@@ -70,4 +70,4 @@ def _fill(x: Array, v: Array, left: Ints, right: Ints) -> tuple[Array, Array]:
     clear = np.minimum(f, 1 - f) * width > NEAR
     keep[m[~clear] + (f[~clear] > 0.5)] = True  # it leaves AT a knot: that knot stays
     m, f, width = m[clear], f[clear], width[clear]
-    return weave(x, v, keep, m, x[m] + f * width, v[m] + f * (v[m + 1] - v[m]))
+    return joined(*pick(keep, x, v), x[m] + f * width, v[m] + f * (v[m + 1] - v[m]))

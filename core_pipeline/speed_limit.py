@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .tracks import NEAR, Tracks, minimal, pick
+from .tracks import NEAR, Tracks, joined, minimal
 
 
 def limit_speed(tracks: Tracks, speed: float) -> Tracks:
@@ -25,9 +25,14 @@ def limit_speed(tracks: Tracks, speed: float) -> Tracks:
     if x.size < 3:
         return tracks
     lift = speed * x
-    left = np.minimum.accumulate(v - lift) + lift  # the lowest cone from the left at each knot
-    right = np.minimum.accumulate((v + lift)[::-1])[::-1] - lift
-    low = np.minimum(np.minimum(left, right), v)
+    left = v - lift
+    np.minimum.accumulate(left, out=left)
+    left += lift  # the lowest cone from the left at each knot
+    right = v + lift
+    np.minimum.accumulate(right[::-1], out=right[::-1])
+    right -= lift
+    low = np.minimum(left, right)
+    np.minimum(low, v, out=low)
     cut = v - low > 1e-12
     i = (cut[1:] | cut[:-1]).nonzero()[0]  # segments in which the curve is not its own limit
     if not i.size:
@@ -43,12 +48,8 @@ def limit_speed(tracks: Tracks, speed: float) -> Tracks:
     touches = reach + leave < width
     meet = np.where(touches, reach, (down - up + speed * width) / (2 * speed))  # else the cones meet each other
     last = width - leave
-
-    xs, vs, keep = np.empty((x.size, 3)), np.empty((x.size, 3)), np.zeros((x.size, 3), bool)
-    xs[:, 0], vs[:, 0], keep[:, 0] = x, low, True
-    xs[i, 1], vs[i, 1] = x[i] + meet, up + speed * meet
-    keep[i, 1] = (meet > NEAR) & (meet < width - NEAR)
-    xs[i, 2], vs[i, 2] = x[i] + last, down + speed * leave
-    keep[i, 2] = touches & (leave > NEAR) & (last > meet + NEAR)
-    x, v = pick(keep.ravel(), xs.ravel(), vs.ravel())
+    inside = np.column_stack(((meet > NEAR) & (meet < width - NEAR), touches & (leave > NEAR) & (last > meet + NEAR)))
+    more_x = np.column_stack((x[i] + meet, x[i] + last))[inside]  # row by row, hence in order
+    more_v = np.column_stack((up + speed * meet, down + speed * leave))[inside]
+    x, v = joined(x, low, more_x, more_v)
     return tracks.with_knots(*minimal(x, np.clip(v, 0.0, 1.0)))

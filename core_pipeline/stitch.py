@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from .timewarp import Warped
-from .tracks import WIDTH, ZERO, Array, Tracks, apart, minimal, weave
+from .tracks import WIDTH, ZERO, Array, Tracks, apart, joined, minimal
 
 
 def stitch(red: Warped) -> Tracks:
@@ -24,9 +24,11 @@ def stitch(red: Warped) -> Tracks:
 def _maximum(x: Array, v: Array, even: int) -> tuple[Array, Array]:
     if not 0 < even < x.size:
         return apart(x, np.where(v < ZERO, 0.0, v)) if x.size else (x, v)
-    xs = np.sort(x, kind="stable")  # two sorted runs: a merge
-    a = np.interp(xs, x[:even], v[:even])
-    b = np.interp(xs, x[even:], v[even:])
+    # Each function's value at its own knots is known; only at the other's it must be looked up.
+    order = x.argsort(kind="stable")  # two sorted runs: a merge
+    xs = x.take(order)
+    a = np.concatenate((v[:even], np.interp(x[even:], x[:even], v[:even]))).take(order)
+    b = np.concatenate((np.interp(x[:even], x[even:], v[even:]), v[even:])).take(order)
     d = a - b
     top = np.maximum(a, b)
     i = (d[:-1] * d[1:] < 0).nonzero()[0]  # they cross between knots i and i+1
@@ -35,6 +37,6 @@ def _maximum(x: Array, v: Array, even: int) -> tuple[Array, Array]:
         width = xs[i + 1] - xs[i]
         clear = np.minimum(f, 1 - f) * width > WIDTH
         i, f, width = i[clear], f[clear], width[clear]
-        xs, top = weave(xs, top, np.ones(xs.size, bool), i, xs[i] + f * width, a[i] + f * (a[i + 1] - a[i]))
+        xs, top = joined(xs, top, xs[i] + f * width, a[i] + f * (a[i + 1] - a[i]))
     top[top < ZERO] = 0.0
     return apart(xs, top)

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -93,13 +94,13 @@ def timewarp(packed: PackedSet, phones: tuple[str, ...], times: Array) -> Warped
     span[:bigrams] = times[2:] - times[:-2]
 
     # Per cell (even | odd, pose, bigram // 2).
-    def cells(per_bigram: NDArray[np.float64]) -> Array:
-        return np.broadcast_to(per_bigram.reshape(half, 2).T[:, None, :], (2, poses, half))
+    def cells(per_bigram: NDArray[Any], step: float) -> NDArray[Any]:
+        lanes = np.arange(poses)[:, None] * step
+        return (per_bigram.reshape(half, 2).T[:, None, :] + lanes).ravel()
 
-    first_key = packed.start[:, row].reshape(poses, half, 2).transpose(2, 0, 1).ravel()
-    count = packed.count[:, row].reshape(poses, half, 2).transpose(2, 0, 1).ravel()
-    lane = np.arange(poses)[:, None] * (duration + 1.0)
-    origin = (cells(begin) + lane).ravel()
+    place = cells(row, empty + 1)  # in the packed tables (poses, rows+1)
+    first_key, count = packed.start.take(place), packed.count.take(place)
+    origin = cells(begin, duration + 1.0)
     ends = count.cumsum()
 
     # Per key.
@@ -107,12 +108,13 @@ def timewarp(packed: PackedSet, phones: tuple[str, ...], times: Array) -> Warped
     cell = np.repeat(np.arange(count.size), count)
     key = (first_key - ends + count).take(cell)
     key += np.arange(total)
-    width = cells(span).ravel().take(cell)
-    x = packed.keys.s.take(key) * width
+    width = cells(span, 0).take(cell)
+    x = packed.keys.s.take(key)
+    x *= width
     x += origin.take(cell)
     v = packed.keys.v.take(key)
 
-    ramps = packed.keys.ramp.take(key).nonzero()[0]
+    ramps = packed.ramps.take(key).nonzero()[0]
     if ramps.size:  # the ramp's upper key moves inside, along the curve
         k, w = key[ramps], width[ramps]
         shift = np.minimum(RAMP, packed.keys.room[k] * w) * packed.keys.ramp[k]

@@ -134,32 +134,41 @@ def minimal(x: Array, v: Array) -> tuple[Array, Array]:
         return x, v
     dx = x[1:] - x[:-1]
     dv = v[1:] - v[:-1]
-    area = np.abs(dv[:-1] * dx[1:] - dv[1:] * dx[:-1])
+    area = dv[:-1] * dx[1:]  # of the triangle with both neighbours, twice
+    area -= dv[1:] * dx[:-1]
+    np.abs(area, out=area)
+    width = x[2:] - x[:-2]
+    width *= COLLINEAR
     keep = np.empty(x.size, bool)
     keep[0], keep[-1] = v[1] > 0, v[-2] > 0
-    np.greater(area, COLLINEAR * (x[2:] - x[:-2]), out=keep[1:-1])
+    np.greater(area, width, out=keep[1:-1])
     moves = v > 0  # where a pose begins or ends to move is never left out, however gently it does
     keep[1:-1] |= (moves[:-2] != moves[2:]) & ~moves[1:-1]
-    if (~(keep[1:] | keep[:-1]) & (moves[1:] | moves[:-1])).any():
-        _restore_corners(x, v, keep)
+    both = ((~(keep[1:] | keep[:-1])) & (moves[1:] | moves[:-1])).nonzero()[0]
+    if both.size:
+        _restore_corners(x, v, keep, np.union1d(both, both + 1))
     return pick(keep, x, v)
 
 
-def _restore_corners(x: Array, v: Array, keep: Mask) -> None:
-    """Keep again what must stay: of two knots close together each is nearly on a line with the other, corner or not."""
-    while True:
-        off = np.abs(np.interp(x, *pick(keep, x, v)) - v) > 10 * COLLINEAR
-        if not off.any():
+def _restore_corners(x: Array, v: Array, keep: Mask, gone: NDArray[np.intp]) -> None:
+    """Keep again those of the knots `gone` that are a corner after all.
+
+    Of two knots close together each is nearly on a line with the other, corner or not.
+    """
+    while gone.size:
+        kept = keep.nonzero()[0]
+        after = kept.searchsorted(gone)
+        a, b = kept[after - 1], kept[after]
+        chord = v[a] + (v[b] - v[a]) / (x[b] - x[a]) * (x[gone] - x[a])
+        corner = np.abs(chord - v[gone]) > 10 * COLLINEAR
+        if not corner.any():
             return
-        keep |= off
+        keep[gone[corner]] = True
+        gone = gone[~corner]
 
 
-def weave(x: Array, v: Array, keep: Mask, i: NDArray[np.intp], xc: Array, vc: Array) -> tuple[Array, Array]:
-    """The kept knots, with one new knot (xc, vc) after each knot i."""
-    xs = np.empty(2 * x.size)
-    vs = np.empty(2 * x.size)
-    ks = np.zeros(2 * x.size, bool)
-    xs[::2], vs[::2], ks[::2] = x, v, keep
-    j = 2 * i + 1
-    xs[j], vs[j], ks[j] = xc, vc, True
-    return pick(ks, xs, vs)
+def joined(x: Array, v: Array, more_x: Array, more_v: Array) -> tuple[Array, Array]:
+    """The knots of both, in order. Sorted runs merge fast; where two are at one time, those of x come first."""
+    both = np.concatenate((x, more_x))
+    order = both.argsort(kind="stable")
+    return both.take(order), np.concatenate((v, more_v)).take(order)

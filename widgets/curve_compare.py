@@ -101,4 +101,4 @@ class CurveCompare(CurvePointer):
             self.blend_bar.adjustSize()
             width = min(self.width() - 80, 460)
             height = self.blend_bar.height()
-            self.blend_bar.setGeometry((self.width() - width) // 2, self.height() - height - 60, width, height)
+            self.blend_bar.setGeometry((self.width() - width) // 2, self.height() - height - 4, width, height)

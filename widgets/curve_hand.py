@@ -185,7 +185,7 @@ class CurveHand(CurveScene, ABC):
         if gesture is None:
             return False
         self.curves = dict(gesture.start.curves)
-        if isinstance(gesture, Marquee):
+        if isinstance(gesture, Marquee | Blend):
             self.selection = gesture.start.selection
         self._end()
         return True
@@ -241,6 +241,7 @@ class CurveHand(CurveScene, ABC):
         if not wanted:
             return False
         self._gesture = Blend(self._start(0.0, 0.0, modal=True), wanted)
+        self.selection = frozenset()  # on the way curves have other keys
         return True
 
     def blend(self, share: float) -> Mapping[str, Curve] | None:

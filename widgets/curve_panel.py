@@ -10,6 +10,9 @@ from .curve_canvas import CurveCanvas
 from .key_table import KeyTable
 from .value_bar import ValueBar
 
+#: Pixels of the table, and of the canvas when it is first asked.
+TABLE, WIDE = 150, 800
+
 #: Milliseconds the table may lag behind a drag.
 LAG = 30
 
@@ -43,6 +46,7 @@ class CurvePanel(QWidget):
         self._body.addWidget(self.table)
         self._body.setStretchFactor(0, 1)
         self._body.setStretchFactor(1, 0)
+        self._body.setSizes([WIDE, TABLE])
         self._body.setChildrenCollapsible(False)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)

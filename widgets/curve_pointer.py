@@ -44,7 +44,7 @@ class CurvePointer(CurvePlot):
     selection_changed = Signal(str)
     #: What can be done now, or why something was refused.
     hint_changed = Signal(str)
-    #: The active pose, curves or selected keys that are shown have become others, working copies included.
+    #: Curves, selected keys, the active pose, whether it may be edited or a gesture runs: one has become another.
     shown_changed = Signal()
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -179,6 +179,11 @@ class CurvePointer(CurvePlot):
         if self._control.modal and not self._control.blending:
             self._keep()
 
+    def close(self) -> bool:
+        """Ends a gesture unkept before the plot is taken apart."""
+        self._stop()
+        return bool(super().close())
+
     # Telling
 
     def _finish(self, edit: Edit | None) -> None:
@@ -204,7 +209,8 @@ class CurvePointer(CurvePlot):
         if hint != self._told_hint:
             self._told_hint = hint
             self.hint_changed.emit(hint)
-        shown = control.active, control.selection, tuple(control.curves.items())
+        may = control.refuses(control.active) is None
+        shown = control.busy, control.active, may, control.selection, tuple(control.curves.items())
         if shown != self._told_shown:
             self._told_shown = shown
             self.shown_changed.emit()

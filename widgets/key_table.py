@@ -122,6 +122,7 @@ class KeyTable(QTableView):
         self.setTabKeyNavigation(False)
         self.setFont(theme.mono_font(8.5))
         self.setShowGrid(False)
+        self.setStyleSheet(f"QTableView{{selection-background-color:{theme.CHECKED.name()}}}")
         self.setAlternatingRowColors(True)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.Stretch)
@@ -165,7 +166,9 @@ class KeyTable(QTableView):
 
     def keyPressEvent(self, ev: QKeyEvent) -> None:
         """Ins, Del and Esc; Enter edits; letters other than those of a number are left to the window."""
-        if ev.key() == Qt.Key.Key_Insert:
+        if self.state() == QAbstractItemView.State.EditingState:
+            super().keyPressEvent(ev)  # what the cell's editor has left over
+        elif ev.key() == Qt.Key.Key_Insert:
             self.add_wanted.emit()
         elif ev.key() in (Qt.Key.Key_Delete, Qt.Key.Key_Backspace):
             self.delete_wanted.emit()

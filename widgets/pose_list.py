@@ -71,7 +71,7 @@ class PoseList(QTreeWidget):
             "open": theme.icon("lock-open-variant-outline", theme.BORDER),
             "locked": theme.icon("lock", theme.HIGHLIGHT),
             "solo": theme.icon("alpha-s-box", theme.HIGHLIGHT),
-            "together": theme.icon("alpha-s", theme.BORDER),
+            "together": theme.icon("alpha-s-box-outline", theme.BORDER),
         }
         self.currentItemChanged.connect(self._pick)
         self.setMinimumWidth(120)

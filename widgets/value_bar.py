@@ -78,8 +78,8 @@ class ValueBar(QWidget):
         row.setContentsMargins(12, 3, 8, 3)
         row.setSpacing(6)
         for axis, field, name, letter in (
-            ("t", self.time, self.tr("Time of the selected keys"), self.tr("&t")),
-            ("v", self.weight, self.tr("Weight of the selected keys"), self.tr("&v")),
+            ("t", self.time, self.tr("Time of the selected keys"), self.tr("t")),
+            ("v", self.weight, self.tr("Weight of the selected keys"), self.tr("v")),
         ):
             field.setAccessibleName(name)
             field.setAccessibleDescription(how)

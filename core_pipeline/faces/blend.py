@@ -1,6 +1,7 @@
 """Amounts → positions and normals, in the layout of the vertex buffer: half of the arrow `Face.deform → pixels`.
 
-The mix is linear (section 3.1.2), so one float32 product does it.
+The mix is linear (section 3.1.2). Few shapes are active in any one frame, and only those are added: a product with
+all of them goes through the whole table, and in BLAS's threads, which wait for each other when the cores are busy.
 """
 
 from __future__ import annotations
@@ -9,6 +10,11 @@ import numpy as np
 
 from .face import Face, Floats
 from .normals import VertexNormals, seam_groups
+
+#: With more active shapes than this, one product is quicker than adding them one by one.
+_FEW = 16
+#: Columns of one product: small enough for BLAS to stay in this thread.
+_COLUMNS = 8192
 
 
 class Blend:
@@ -25,6 +31,7 @@ class Blend:
         layers[1:, :, :3], layers[1:, :, 3:] = face.deltas, face.normal_deltas
         self._amounts: Floats = np.ones(count + 1, np.float32)
         self._flat: Floats = np.empty(6 * n, np.float32)
+        self._added: Floats = np.empty(6 * n, np.float32)
         self._face = face
         self._triangle_normals: VertexNormals | None = None
         self._offset: Floats | None = None
@@ -32,10 +39,19 @@ class Blend:
     def mixed(self, amounts: Floats) -> Floats:
         """Positions and blended normals at shape amounts (k,); the normals are not of unit length.
 
-        Row 0 of the product is the neutral face, always taken once.
+        Row 0 of the table is the neutral face, always taken once.
         """
         self._amounts[1:] = amounts
-        np.matmul(self._amounts, self._rows, out=self._flat)
+        active = np.flatnonzero(self._amounts[1:]) + 1
+        if len(active) <= _FEW:
+            np.copyto(self._flat, self._rows[0])
+            for row in active:
+                np.multiply(self._rows[row], self._amounts[row], out=self._added)
+                np.add(self._flat, self._added, out=self._flat)
+        else:
+            for start in range(0, len(self._flat), _COLUMNS):
+                part = slice(start, start + _COLUMNS)
+                np.matmul(self._amounts, self._rows[:, part], out=self._flat[part])
         return self._flat.reshape(-1, 6)
 
     def exact(self, amounts: Floats) -> Floats:

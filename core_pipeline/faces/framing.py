@@ -13,8 +13,8 @@ from core_pipeline.faces.retarget import normalised
 _FOV = 24.0
 #: Height of the picture in heights of what moves: brow to chin is about two thirds of a head.
 _AROUND = 0.9
-#: Vertices that move less than this part of the largest motion do not tell where the face is.
-_MOVES = 0.05
+#: Vertices that move less than this part of the usual motion do not tell where the face is, nor do wild shapes.
+_MOVES, _WILD = 0.05, 10.0
 _LONGER = 1.1
 _OPEN = frozenset({"jawopen", "open", "mouthopen", "visemeaa", "jawdrop", "vopen", "aa", "fclmtha", "a"})
 
@@ -70,11 +70,14 @@ def _camera(low: NDArray[np.float64], high: NDArray[np.float64]) -> Camera:
 
 
 def _moving(face: Face) -> NDArray[np.bool_]:
-    """(n,) whether a vertex moves noticeably in some shape."""
-    furthest = np.zeros(len(face.positions), np.float32)
-    for delta in face.deltas:
-        np.maximum(furthest, np.einsum("ij,ij->i", delta, delta), out=furthest)
-    moved: NDArray[np.bool_] = furthest > _MOVES**2 * furthest.max(initial=0.0)
+    """(n,) whether a vertex moves noticeably in some shape, of those that move about as far as most do."""
+    squares = [np.einsum("ij,ij->i", delta, delta) for delta in face.deltas]
+    reach = np.sqrt([square.max(initial=0) for square in squares])
+    usual = float(np.median(reach[reach > 0])) if reach.any() else 0.0
+    moved = np.zeros(len(face.positions), bool)
+    for square, far in zip(squares, reach, strict=True):
+        if 0 < far <= _WILD * usual:
+            moved |= square > (_MOVES * usual) ** 2
     return moved
 
 
@@ -99,8 +102,7 @@ def _opening(face: Face) -> Floats:
 def _looks_back(face: Face, moved: NDArray[np.bool_]) -> bool:
     near = _near(face, moved)
     low, high = near[:, 2].min(), near[:, 2].max()
-    weights = np.sqrt(np.einsum("kij,kij->i", face.deltas, face.deltas))
-    middle = float(np.average(face.positions[:, 2], weights=weights))
+    middle = float(face.positions[moved, 2].mean())
     return bool(middle < low + 0.4 * (high - low))
 
 

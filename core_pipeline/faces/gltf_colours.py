@@ -72,7 +72,7 @@ class Colours:
             if looked_up is not None:
                 at_vertices, at_triangles = looked_up
                 colours[:, :3] *= at_vertices[:, :3]
-                seen = seen * at_triangles[:, 3]
+                seen = seen * (at_triangles[:, 3] + at_vertices[:, 3][triangles].mean(axis=1)) / 2
         shown = np.ones(len(triangles), bool)
         if material.get("alphaMode") in ("MASK", "BLEND"):
             cutoff = gltf.floats([material.get("alphaCutoff", 0.5)], 1)[0]
@@ -82,7 +82,7 @@ class Colours:
     def _looked_up(
         self, texture: Json, primitive: Json, count: int, triangles: Triangles
     ) -> tuple[Floats, Floats] | None:
-        """Linear RGB and alpha of the picture at the vertices (n, 4), and in the triangles (m, 4)."""
+        """Linear RGB and alpha of the picture at the vertices (n, 4), and amid the triangles (m, 4)."""
         gltf = self._gltf
         move = gltf.part(gltf.part(texture, "extensions"), "KHR_texture_transform")
         channel = f"TEXCOORD_{move.get('texCoord', texture.get('texCoord', 0))}"

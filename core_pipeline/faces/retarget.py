@@ -111,8 +111,7 @@ def apply(preset: Preset, shapes: Sequence[str], poses: Sequence[str] = FACEFX) 
     for pose in poses:
         wanted = preset.poses.get(pose, {pose: 1.0})
         mix, lacking = _mixed(rig, preset, wanted)
-        total = sum(abs(amount) for amount in wanted.values())
-        if not mix or sum(abs(wanted[name]) for name in lacking) > ENOUGH * total:
+        if not mix or _share(wanted, lacking) > ENOUGH * _share(wanted, wanted):
             continue
         made[pose] = MappingProxyType(mix)
         if lacking:
@@ -121,6 +120,11 @@ def apply(preset: Preset, shapes: Sequence[str], poses: Sequence[str] = FACEFX) 
     if missing:
         notes.append(f"Not available on this face: {', '.join(missing)}.")
     return Retarget(preset.name, preset.title, MappingProxyType(made), missing, tuple(notes))
+
+
+def _share(wanted: Mix, names: Iterable[str]) -> float:
+    """How much of a pose some of its shapes carry; a shape of one side carries half."""
+    return sum(abs(wanted[name]) * (0.5 if _ONE_SIDE.search(name) else 1.0) for name in names)
 
 
 def _mixed(rig: Rig, preset: Preset, wanted: Mix) -> tuple[dict[str, float], list[str]]:

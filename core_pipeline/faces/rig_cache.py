@@ -44,7 +44,7 @@ def recall(rig: Path, cache: Path) -> tuple[Face, tuple[str, ...]] | None:
     """The face and its notes as kept by `keep`; None when there is none, or a file has changed since."""
     path = _place(rig, cache)
     try:
-        with np.load(path, allow_pickle=False) as kept:
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as kept:
             about = json.loads(str(kept["about"]))
             if about["format"] != FORMAT or about["files"] != _stamps(Path(name) for name, *_ in about["files"]):
                 return None

@@ -12,7 +12,7 @@ from core_pipeline.curve_set import Bigram
 from core_pipeline.errors import UserError
 from core_pipeline.files.curve_set_json import dumps, load
 from core_pipeline.phone_parts import Recipe, bigram_of, curve_set_of, read_recipe, write
-from core_pipeline.phonemes import COMMON, SILENCE
+from core_pipeline.phonemes import COMMON, SILENCE, TABLE_1
 
 ROOT = Path(__file__).parents[2]
 ENGLISH = ROOT / "assets" / "curves" / "english.toml"
@@ -174,6 +174,50 @@ def test_a_mistake_in_a_recipe_is_named_and_writes_nothing(tmp_path: Path, old: 
         write(broken)
     assert str(broken) in str(error.value)
     assert not broken.with_suffix(".json").exists()
+
+
+SETTINGS = """
+[settings]
+windows = { PBM = 0.12 }
+constraints = [["open", "PBM", 0.4]]
+priorities = ["open", "PBM"]
+l_max = 12.0
+"""
+
+
+def with_more(tmp_path: Path, more: str) -> Path:
+    path = tmp_path / "more.toml"
+    path.write_text(ENGLISH.read_text("utf-8") + more, "utf-8")
+    return path
+
+
+def test_a_recipe_may_bring_settings_and_a_phoneme_map(tmp_path: Path) -> None:
+    made = curve_set_of(read_recipe(with_more(tmp_path, f'{SETTINGS}[phoneme_map]\nm = "bmp"\n')))
+    assert made.settings is not None
+    assert (made.settings.window_of("PBM"), made.settings.speed_limit) == (0.12, 12)
+    assert [(c.a, c.b, c.limit) for c in made.settings.constraints] == [("open", "PBM", 0.4)]
+    assert made.settings.priorities == ("open", "PBM")
+    assert dict(made.phoneme_map) == {"m": "bmp"}
+    without = curve_set_of(read_recipe(ENGLISH))
+    assert (without.settings, dict(without.phoneme_map)) == (None, dict(TABLE_1))
+
+
+@pytest.mark.parametrize(
+    ("more", "named"),
+    [
+        (SETTINGS.replace("windows", "window_s"), "window_s"),
+        (SETTINGS.replace('"open", "PBM", 0.4', '"mouth", "PBM", 0.4'), "'mouth'"),
+        (SETTINGS.replace('["open", "PBM"]', '["open", "MBP"]'), "'MBP'"),
+        (SETTINGS.replace("0.4", "4"), "choose 0 to 2"),
+        (SETTINGS.replace("12.0", '"fast"'), "settings"),
+        ('[phoneme_map]\nm = "mbp"\n', "m to 'mbp'"),
+    ],
+)
+def test_a_mistake_in_settings_or_map_is_named(tmp_path: Path, more: str, named: str) -> None:
+    path = with_more(tmp_path, more)
+    with pytest.raises(UserError, match=named) as error:
+        read_recipe(path)
+    assert str(path) in str(error.value)
 
 
 def test_the_command_says_what_it_wrote_and_what_it_could_not_read(tmp_path: Path) -> None:

@@ -1,120 +1,17 @@
 """The canvas under real mouse and key events: what it shows, and what it says is wanted."""
 
-import random
-
 import numpy as np
 import pytest
-from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
-from PySide6.QtGui import QContextMenuEvent, QKeyEvent, QMouseEvent, QWheelEvent
+from PySide6.QtCore import QEvent, QPointF, Qt
+from PySide6.QtGui import QContextMenuEvent, QKeyEvent
 from PySide6.QtWidgets import QApplication
 
-from core_pipeline.curves import Curve
-from core_pipeline.poses import FACEFX
+from tests.helpers.curve_hand import ALT, CTRL, FV, LEFT, MIDDLE, NO_BUTTON, NONE, OPEN, SHIFT
 from widgets import theme
 from widgets.canvas_header import CanvasHeader
 from widgets.curve_axes import grid_values
-from widgets.curve_canvas import CurveCanvas
 
-NONE = Qt.KeyboardModifier.NoModifier
-SHIFT = Qt.KeyboardModifier.ShiftModifier
-CTRL = Qt.KeyboardModifier.ControlModifier
-ALT = Qt.KeyboardModifier.AltModifier
-LEFT, MIDDLE = Qt.MouseButton.LeftButton, Qt.MouseButton.MiddleButton
-NO_BUTTON = Qt.MouseButton.NoButton
 Key = Qt.Key
-
-OPEN = Curve.of([(0, 0), (0.34, 0.02), (0.55, 0.62), (0.72, 0.8), (1, 0.12)])
-FV = Curve.of([(0, 0.2), (0.12, 0.78), (0.26, 0.97), (0.42, 0.55), (0.56, 0.06), (1, 0)])
-
-
-class Hand:
-    """A canvas with an owner that hands every edit back in, as the program does, and notes what was said."""
-
-    def __init__(self, canvas: CurveCanvas) -> None:
-        self.canvas = canvas
-        self.edits, self.previews, self.hints, self.actives, self.selections = [], [], [], [], []
-        self.cancelled = self.played = 0
-        self.curves = {"open": OPEN, "FV": FV}
-        self.history = [self.curves]
-        canvas.edited.connect(self._take)
-        canvas.preview_changed.connect(self.previews.append)
-        canvas.hint_changed.connect(self.hints.append)
-        canvas.active_changed.connect(self.actives.append)
-        canvas.selection_changed.connect(self.selections.append)
-        canvas.cancelled.connect(self._count_cancel)
-        canvas.play_wanted.connect(self._count_play)
-
-    def _take(self, changes, label):
-        self.edits.append((changes, label))
-        merged = {**self.curves, **changes}
-        self.curves = {pose: curve for pose, curve in merged.items() if curve is not None}
-        self.history.append(self.curves)
-        self.canvas.set_curves(self.curves)
-
-    def _count_cancel(self):
-        self.cancelled += 1
-
-    def _count_play(self):
-        self.played += 1
-
-    def mouse(self, kind, at, button, buttons, held=NONE):
-        viewport = self.canvas.viewport()
-        event = QMouseEvent(kind, at, QPointF(viewport.mapToGlobal(at)), button, buttons, held)
-        QApplication.sendEvent(viewport, event)
-
-    def press(self, t, v, held=NONE, button=LEFT):
-        self.mouse(QEvent.Type.MouseButtonPress, self.canvas.point_of(t, v), button, button, held)
-
-    def move(self, t, v, held=NONE, button=LEFT):
-        self.mouse(QEvent.Type.MouseMove, self.canvas.point_of(t, v), NO_BUTTON, button, held)
-
-    def release(self, t, v, held=NONE, button=LEFT):
-        self.mouse(QEvent.Type.MouseButtonRelease, self.canvas.point_of(t, v), button, NO_BUTTON, held)
-
-    def click(self, t, v, held=NONE):
-        self.press(t, v, held)
-        self.release(t, v, held)
-
-    def double_click(self, t, v, held=NONE):
-        self.click(t, v, held)
-        self.mouse(QEvent.Type.MouseButtonDblClick, self.canvas.point_of(t, v), LEFT, LEFT, held)
-        self.release(t, v, held)
-
-    def drag(self, start, end, held=NONE, steps=6, button=LEFT):
-        self.press(*start, held, button)
-        for share in np.linspace(0, 1, steps + 1)[1:]:
-            self.move(*(a + (b - a) * share for a, b in zip(start, end, strict=True)), held, button)
-        self.release(*end, held, button)
-
-    def key(self, key, held=NONE, text=""):
-        for kind in (QEvent.Type.KeyPress, QEvent.Type.KeyRelease):
-            QApplication.sendEvent(self.canvas, QKeyEvent(kind, key, held, text))
-
-    def wheel(self, t, v, turn, held=NONE):
-        at = self.canvas.point_of(t, v)
-        everywhere = QPointF(self.canvas.viewport().mapToGlobal(at))
-        no_phase = Qt.ScrollPhase.NoScrollPhase
-        event = QWheelEvent(at, everywhere, QPoint(), QPoint(0, turn), NO_BUTTON, held, no_phase, False)
-        QApplication.sendEvent(self.canvas.viewport(), event)
-
-
-@pytest.fixture
-def canvas(qtbot):
-    widget = CurveCanvas()
-    qtbot.addWidget(widget)
-    widget.resize(900, 500)
-    widget.set_poses(FACEFX)
-    widget.set_bigram("f", "ah")
-    widget.set_curves({"open": OPEN, "FV": FV})
-    widget.set_active("FV")
-    widget.show()
-    qtbot.waitExposed(widget)
-    return widget
-
-
-@pytest.fixture
-def hand(canvas):
-    return Hand(canvas)
 
 
 def count(canvas, colour):
@@ -535,64 +432,6 @@ def test_an_empty_bigram_says_how_to_begin(canvas):
     before = count(canvas, theme.MUTED)
     canvas.set_curves({})
     assert count(canvas, theme.MUTED) > before
-
-
-# A monkey
-
-
-def test_a_thousand_random_events_break_no_law(hand, canvas):
-    """Weighted random presses, drags, keys and values from outside; after every one the curves are sound.
-
-    Every edit differs from what was there, edits come one for one with steps of the history, and the first
-    step is still the very same object at the end.
-    """
-    dice = random.Random(20130)
-    held = (NONE, NONE, NONE, SHIFT, CTRL, ALT, SHIFT | CTRL)
-    arrows = (Key.Key_Left, Key.Key_Right, Key.Key_Up, Key.Key_Down)
-    keys = (*arrows, Key.Key_Delete, Key.Key_Escape, Key.Key_Comma, Key.Key_F, Key.Key_Home)
-
-    def anywhere():
-        if canvas.curves and dice.random() < 0.6:
-            curve = dice.choice(list(canvas.curves.values()))
-            return dice.choice(curve.keys())
-        return dice.uniform(-0.2, 1.2), dice.uniform(-0.2, 1.2)
-
-    def from_outside():
-        canvas.set_locked({pose for pose in ("open", "wide") if dice.random() < 0.3})
-        canvas.set_visible_poses({pose for pose in FACEFX if dice.random() < 0.9})
-        canvas.set_active(dice.choice(FACEFX))
-        canvas.set_curves(hand.curves)
-
-    moves = {
-        "press": lambda: hand.press(*anywhere(), dice.choice(held)),
-        "move": lambda: hand.move(*anywhere(), dice.choice(held)),
-        "release": lambda: hand.release(*anywhere()),
-        "drag": lambda: hand.drag(anywhere(), anywhere(), dice.choice(held)),
-        "double": lambda: hand.double_click(*anywhere(), dice.choice(held)),
-        "key": lambda: hand.key(dice.choice(keys), dice.choice((NONE, NONE, NONE, SHIFT))),
-        "all": lambda: hand.key(Key.Key_A, CTRL),
-        "wheel": lambda: hand.wheel(*anywhere(), dice.choice((-120, 120)), dice.choice(held)),
-        "pan": lambda: hand.drag(anywhere(), anywhere(), button=MIDDLE),
-        "outside": from_outside,
-        "bigram": lambda: canvas.set_bigram(dice.choice("fd"), "ah"),
-    }
-    names = dice.choices(list(moves), (16, 30, 12, 12, 8, 12, 1, 3, 1, 3, 2), k=1000)
-    for name in names:
-        told = len(hand.edits)
-        moves[name]()
-        assert len(hand.edits) == len(hand.history) - 1
-        for (changes, _), before in zip(hand.edits[told:], hand.history[told:], strict=False):
-            assert changes
-            assert not any(before.get(pose) is curve for pose, curve in changes.items())
-            assert not any(curve and curve.same_as(before.get(pose)) for pose, curve in changes.items())
-        for pose, curve in canvas.curves.items():
-            assert pose in FACEFX
-            assert (np.diff(curve.t) > 0).all()
-        if not canvas.busy:
-            assert canvas.curves == hand.curves
-            assert all(index < len(canvas.curves[pose]) for pose, index in canvas.selection)
-    assert len(hand.edits) > 50
-    assert hand.history[0]["FV"] is FV
 
 
 # The header

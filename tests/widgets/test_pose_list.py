@@ -6,7 +6,7 @@ from PySide6.QtGui import QKeyEvent
 
 from core_pipeline.poses import FACEFX, MEANING
 from widgets import theme
-from widgets.pose_list import EYE, LOCK, NAME, PoseList
+from widgets.pose_list import EYE, LOCK, NAME, SOLO, PoseList
 
 ROLE = Qt.ItemDataRole.AccessibleTextRole
 
@@ -106,3 +106,34 @@ def test_every_row_can_be_read_out(poses):
 def test_all_poses_fit_without_scrolling(poses):
     assert not poses.verticalScrollBar().isVisible()
     assert poses.visualRect(poses.model().index(len(FACEFX) - 1, NAME)).bottom() < poses.viewport().height()
+
+
+def test_solo_wishes_one_pose_alone_and_again_all(qtbot, poses):
+    said = []
+    poses.solo_wanted.connect(said.append)
+    poses.solo_wanted.connect(poses.set_solo)
+    click(qtbot, poses, "PBM", SOLO)
+    row = poses.topLevelItem(FACEFX.index("PBM"))
+    assert row.data(SOLO, ROLE) == "PBM solo"
+    assert row.data(NAME, ROLE) == "PBM, no curve, visible, unlocked, solo"
+    click(qtbot, poses, "open", SOLO)
+    click(qtbot, poses, "open", SOLO)
+    assert said == [{"PBM"}, {"open"}, set()]
+    assert poses.currentItem().text(NAME) == "FV"
+
+
+def test_shift_puts_a_pose_beside_the_ones_that_are_solo(qtbot, poses):
+    said = []
+    poses.solo_wanted.connect(said.append)
+    poses.set_solo({"PBM"})
+    at = place(poses, FACEFX.index("open"), SOLO)
+    qtbot.mouseClick(poses.viewport(), Qt.MouseButton.LeftButton, Qt.KeyboardModifier.ShiftModifier, at)
+    at = place(poses, FACEFX.index("PBM"), SOLO)
+    qtbot.mouseClick(poses.viewport(), Qt.MouseButton.LeftButton, Qt.KeyboardModifier.ShiftModifier, at)
+    assert said == [{"PBM", "open"}, set()]
+
+
+def test_s_makes_the_current_pose_solo(qtbot, poses):
+    with qtbot.waitSignal(poses.solo_wanted) as wish:
+        qtbot.keyClick(poses, Qt.Key.Key_S)
+    assert wish.args == [{"FV"}]

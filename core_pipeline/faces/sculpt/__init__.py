@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from core_pipeline.faces.face_folder import save
+from core_pipeline.faces.sculpt.ada import ADA
 from core_pipeline.faces.sculpt.build import sculpt
 from core_pipeline.faces.sculpt.character import Character
 from core_pipeline.faces.sculpt.crab import CRAB
@@ -13,7 +14,7 @@ from core_pipeline.faces.sculpt.man import MAN
 from core_pipeline.faces.sculpt.toon import TOON
 from core_pipeline.faces.sculpt.woman import WOMAN
 
-HUMANS: tuple[Character, ...] = (TOON, WOMAN, MAN)
+HUMANS: tuple[Character, ...] = (TOON, ADA, WOMAN, MAN)
 CHARACTERS: tuple[Character, ...] = (*HUMANS, CRAB)
 
 

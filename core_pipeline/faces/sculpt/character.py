@@ -111,6 +111,7 @@ class Eyes:
     ease     0…1 how much less the skin round the corners follows a blink
     crease   how deep the fold above the upper lid is drawn, 0…1
     shut     where a blink's lids meet: 0 at the lower lid's edge, 1 at the upper one's
+    streaks  how much the iris' colour changes round the pupil, 0…1
     lashes   single lashes on each upper lid
     """
 
@@ -134,11 +135,15 @@ class Eyes:
     shut: float = 0.36
     lashes: int = 0
     lash_length: float = 0.3
+    streaks: float = 0.0
 
 
 @dataclass(frozen=True)
 class Brows:
-    """(x, height above the eye's centre, half thickness) along the right brow, from nose to temple."""
+    """(x, height above the eye's centre, half thickness) along the right brow, from nose to temple.
+
+    hairs  so many single ones on a painted ground, instead of one solid piece
+    """
 
     line: tuple[tuple[float, float, float], ...] = (
         (0.12, 0.395, 0.030),
@@ -148,6 +153,7 @@ class Brows:
         (0.55, 0.365, 0.010),
     )
     lift: float = 0.09
+    hairs: int = 0
 
 
 @dataclass(frozen=True)
@@ -220,7 +226,10 @@ class Body:
 
 @dataclass(frozen=True)
 class Palette:
-    """Colours of the parts; `stubble` 0…1 is the shadow of a beard, in the colour of the brows."""
+    """Colours of the parts; `stubble` 0…1 is the shadow of a beard, in the colour of the brows.
+
+    variation  0…1 how much skin and lips change from place to place
+    """
 
     skin: Point = (0.93, 0.69, 0.56)
     blush: Point = (0.93, 0.45, 0.40)
@@ -238,6 +247,7 @@ class Palette:
     shirt: Point = (0.16, 0.50, 0.56)
     shirt_trim: Point = (0.95, 0.90, 0.80)
     stubble: float = 0.0
+    variation: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -23,13 +23,13 @@ POSES = {
         tongue=TongueBend(((-0.30, -0.68), (-0.04, -0.56), (-0.06, -0.36), (-0.07, -0.24))),
     ),
     "mouth OO": MouthPose(
-        rounded=1.0, hole=(0.11, 0.12), ring=0.105, forward=0.14,
-        upper_teeth=(0.16, -0.12), lower_teeth=(-0.17, -0.12),
+        rounded=1.0, hole=(0.11, 0.115), ring=0.10, forward=0.14,
+        upper_teeth=(0.13, -0.15), lower_teeth=(-0.15, -0.14),
         tongue=TongueBend(((-0.36, -0.72), (-0.20, -0.68), (-0.24, -0.54), (-0.24, -0.44))),
     ),
     "bare teeth": MouthPose(
-        width=0.10, raise_upper=0.10, drop_lower=0.075, roll_upper=8, roll_lower=8, thick=-0.12, corners=0.015, flat=1.0,
-        lower_teeth=(0.045, 0.0),
+        width=0.10, raise_upper=0.105, drop_lower=0.075, roll_upper=8, roll_lower=8, thick=-0.12, corners=0.015,
+        flat=1.0, upper_teeth=(0.0, 0.025), lower_teeth=(0.045, 0.015),
     ),
     "smile": MouthPose(
         width=0.16, corners=0.105, raise_upper=-0.035, drop_lower=0.035, thick=-0.10, cheeks=0.06, forward=-0.01
@@ -38,7 +38,7 @@ POSES = {
         width=-0.06, corners=-0.17, raise_upper=0.03, drop_lower=-0.03, thick=0.10, thick_lower=0.1, forward=0.03,
     ),
     "lips shut": MouthPose(
-        width=0.02, roll_upper=-18, roll_lower=-26, thick=-0.36, forward=-0.012, slide=0.075, lower_teeth=(0.0, -0.03),
+        width=0.02, roll_upper=-18, roll_lower=-26, thick=-0.36, forward=-0.012, slide=0.09, lower_teeth=(0.0, -0.03),
         raise_upper=-0.002, drop_lower=-0.002,
     ),
     "tongue up": MouthPose(
@@ -111,15 +111,19 @@ CRAB = Crab(
     poses=POSES,
     rest_tongue=REST,
     mouth=Mouth(
-        height=-0.25, half_width=0.46, smile=0.07, upper=0.05, lower=0.062, upper_depth=0.036, lower_depth=0.042,
+        height=-0.275, half_width=0.46, smile=0.07, upper=0.05, lower=0.062, upper_depth=0.036, lower_depth=0.042,
         lap=0.055, bow=0.0, hinge=(0.0, 0.0, -0.05), bag=(0.58, 0.32, 0.62), inset=1.0,
     ),
     teeth=Dentition(
         half_width=0.46, depth=0.46, behind_lips=0.085, upper_height=0.17, lower_height=0.14, edge=-0.02,
         bite=0.042, per_side=4
     ),
-    eyes=Eyes(centre=(0.34, 0.98, 0.30), radius=0.27, yaw=8, gaze=(3, -2), iris=36, pupil=20, iris_colour=(0.20, 0.56, 0.42)),
-    stalks=Stalks(foot=(0.30, 0.50, 0.22)),
+    eyes=Eyes(
+        centre=(0.34, 0.98, 0.30), radius=0.27, yaw=8, gaze=(3, -2), iris=36, pupil=20, iris_colour=(0.20, 0.56, 0.42)
+    ),
+    stalks=Stalks(
+        foot=(0.30, 0.50, 0.22), narrow={"smile": (-3.0, 14.0), "frown": (-16.0, 3.0), "bare teeth": (-2.0, 6.0)}
+    ),
     claw=CLAW,
     left_claw=0.86,
     legs=(_leg(0.12, 0.68, -1.08), _leg(-0.06, 0.84, -1.04), _leg(-0.26, 0.98, -0.98)),

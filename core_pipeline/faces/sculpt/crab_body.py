@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from core_pipeline.faces.sculpt.character import Character, Hair
 from core_pipeline.faces.sculpt.horn import Horn
@@ -13,10 +14,11 @@ from core_pipeline.faces.sculpt.sdf import Point
 class Stalks:
     """Eyes like lamps: a visor above and one below, opening to these degrees from straight ahead.
 
-    foot   where the right stalk leaves the shell; girth: half thickness at foot and eye
-    shut   where the visors meet in a blink
-    tilt   degrees the opening leans: positive lifts the inner corners
-    lift   how far browUp stretches the stalks, and by how many degrees more it opens the eyes
+    foot    where the right stalk leaves the shell; girth: half thickness at foot and eye
+    shut    where the visors meet in a blink
+    tilt    degrees the opening leans: positive lifts the inner corners
+    lift    how far browUp stretches the stalks, and by how many degrees more it opens the eyes
+    narrow  pose → degrees by which it moves the (upper, lower) visor: a smile reaches the eyes
     """
 
     foot: Point
@@ -27,6 +29,7 @@ class Stalks:
     tilt: float = 7.0
     yaw: float = 8.0
     lift: tuple[float, float] = (0.12, 14.0)
+    narrow: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -46,6 +49,9 @@ class Spot:
     radius: float
 
 
+BALD = Hair(hairline=())
+
+
 @dataclass(frozen=True, kw_only=True)
 class Crab(Character):
     """A crab: a character with a shell instead of a head. Limbs are the right side's; the left mirrors them.
@@ -54,7 +60,7 @@ class Crab(Character):
     left_claw  size of the left claw over the right one's
     """
 
-    hair: Hair = Hair(hairline=())
+    hair: Hair = BALD
     stalks: Stalks
     claw: Claw
     left_claw: float = 1.0

@@ -20,6 +20,7 @@ SECTION = np.array(
 )
 BACK = 183.0
 CLEAR = 1.04
+OVERLAP = 1.5
 
 
 def stalk_eyes(crab: Crab) -> list[Piece]:
@@ -36,7 +37,10 @@ def _visor(crab: Crab, name: str, *, upper: bool) -> Piece:
     wider = stalks.lift[1] if upper else 0.0
     rest = _turned(crab, edge, edge)
     up = np.array([0, stalks.lift[0], 0])
-    poses = {"blink": _turned(crab, edge, stalks.shut), "browUp": _turned(crab, edge, edge + wider) + up}
+    shut = stalks.shut - OVERLAP if upper else stalks.shut + OVERLAP
+    poses = {"blink": _turned(crab, edge, shut), "browUp": _turned(crab, edge, edge + wider) + up}
+    for pose, moves in stalks.narrow.items():
+        poses[pose] = _turned(crab, edge, edge + moves[0 if upper else 1])
     triangles = grid(len(SECTION), COLUMNS, closed=False)
     colours = paint(len(rest), crab.palette.lid, 0.5)
     rim = np.repeat(smoothstep(0.06, 0.02, SECTION[:, 0]), COLUMNS)[:, None]
@@ -48,7 +52,7 @@ def _turned(crab: Crab, edge: float, shown: float) -> Array:
     """A visor whose edge at rest is at `edge` degrees, turned so that it is at `shown`."""
     stalks, ball = crab.stalks, crab.eyes
     back = BACK if edge > 0 else -BACK
-    side = np.radians(np.linspace(-88, 88, COLUMNS))[None]
+    side = np.radians(np.linspace(-89.8, 89.8, COLUMNS))[None]
     share, radius = SECTION[:, :1], SECTION[:, 1:]
     turned = (shown - edge) * (1 - share)
     height = np.radians(edge + (back - edge) * share + turned)

@@ -17,7 +17,6 @@ from core_pipeline.faces.sculpt.mouth import BAG_RINGS, PROFILE, RINGS, Lips
 from core_pipeline.faces.sculpt.piece import Piece, Triangles, fan, grid, linear, turn
 from core_pipeline.faces.sculpt.sdf import Array, Solid, smoothstep
 
-
 # half the width of the line where the brim's colours meet
 BRIM = 0.012
 

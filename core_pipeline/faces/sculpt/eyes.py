@@ -57,6 +57,8 @@ def _eyeball(character: Character) -> Piece:
     rings = np.repeat(angles, AROUND)
     in_iris = np.append((rings < iris - 1) & (rings > pupil + 0.2), False)
     colours[in_iris] *= (1.15 - 1.5 * height[in_iris, None]).clip(0.55, 1.8)
+    around = np.append(np.tile(np.arange(AROUND), len(angles)), 0)
+    colours[in_iris] *= 1 + eyes.streaks * np.sin(around * 2.4 + 3 * np.sin(1.7 * around))[in_iris, None]
     colours *= (1 - 0.45 * np.clip((height - 0.30) / 0.45, 0, 1))[:, None]
     colours = np.column_stack([np.clip(colours, 0, 1), np.full(len(points), 1.0)])
     last = (len(angles) - 1) * AROUND + np.arange(AROUND)

@@ -9,7 +9,7 @@ from core_pipeline.faces.sculpt.character import Sheet
 from core_pipeline.faces.sculpt.piece import Triangles, grid
 from core_pipeline.faces.sculpt.sdf import Array, Solid, smoothstep
 
-INNER = 7  # columns on the side no one sees
+INNER = 6  # one column in so many on the side no one sees
 
 
 def sheet(layer: Sheet, clay: Solid) -> list[tuple[Array, Triangles, Array]]:
@@ -50,10 +50,10 @@ def _build(layer: Sheet, clay: Solid) -> tuple[Array, Triangles, Array]:
     rim = np.sqrt(np.clip(1 - (1 - np.clip(np.minimum(across, 1 - across) / 0.10, 0, 1)) ** 2, 0, 1))
     tip = np.sqrt(np.clip(1 - np.clip((share - 0.72) / 0.28, 0, 1) ** 2, 0, 1))
     root = 0.1 + 0.9 * smoothstep(0, 0.2, share)
-    comb = ridge ** 0.7 * smoothstep(0.0, 0.35, share) + 0.6 * (1 - smoothstep(0.0, 0.35, share))
+    comb = ridge**0.7 * smoothstep(0.0, 0.35, share) + 0.6 * (1 - smoothstep(0.0, 0.35, share))
     full = layer.thickness * rim * tip * root
     outer = middle + normal * (full * (0.45 + 0.55 * comb))[..., None]
-    kept = np.unique(np.linspace(0, layer.columns - 1, INNER).astype(int))[::-1]
+    kept = np.unique(np.linspace(0, layer.columns - 1, max(7, layer.columns // INNER)).astype(int))[::-1]
     inner = (middle - normal * (0.35 * full)[..., None])[:, kept]
     points = np.concatenate([outer, inner], axis=1)
     light = 0.12 + 0.62 * comb * rim + 0.22 * smoothstep(0.35, 0.9, share) * rim

@@ -15,7 +15,7 @@ from core_pipeline.faces.sculpt.sdf import Array, Solid, smoothstep
 # sizes of the almonds round the eye: on the flat map; and (radius, size) of the lid's band inside the first of them
 EYE_RINGS = (1.14, 1.24, 1.36, 1.52, 1.74)
 BAND = ((LID, 1.065), (LID, 1.0), (1.035, 0.985), (0.94, 0.99))
-CREASE = 1.52  # where the upper lid folds, as a size of the almond
+CREASE = 1.36  # where the upper lid folds, as a size of the almond
 EDGE = 1  # the row of the band that is the lid's edge
 
 
@@ -109,7 +109,9 @@ class Skin:
         """(layout points,) 1 in the fold above the upper lid."""
         height = points[:, 1] - self.lid.centre[1]
         across = np.abs(np.abs(points[:, 0]) - self.lid.centre[0]) / self.character.eyes.radius
-        fold: Array = np.exp(-(((self._ratio - CREASE) / 0.09) ** 2)) * smoothstep(0.0, 0.05, height)
+        # it follows a ring of the mesh; above the eye the rings lie farther apart
+        ring = EYE_RINGS[0] + (1 + self.character.eyes.spread) * (CREASE - EYE_RINGS[0])
+        fold: Array = np.exp(-(((self._ratio - ring) / 0.11) ** 2)) * smoothstep(0.0, 0.05, height)
         return fold * smoothstep(1.15, 0.7, across)
 
     def _smoothed(self, values: Array) -> Array:
@@ -243,6 +245,37 @@ class Skin:
         raised: Array = face + share[:, None] * (lifted - face)
         return raised
 
+    def _uneven(self, points: Array, tone: Array) -> Array:
+        """(n, 3) what to add to the skin's `tone`: under the eyes, at the wings of the nose, on brow, jaw and chin."""
+        x, y, z = points.T
+        eyes, palette = self.character.eyes, self.character.palette
+        side, low = np.abs(x) - eyes.centre[0], y - eyes.centre[1]
+        added = np.zeros_like(tone)
+
+        def toward(colour: Array, share: Array) -> None:
+            added[:] += share[:, None] * (colour - tone - added)
+
+        under = np.exp(-((side / (0.8 * eyes.radius)) ** 2) - (((low + 0.75 * eyes.radius) / (0.3 * eyes.radius)) ** 2))
+        toward(linear(palette.lid) * (0.95, 0.92, 1.0), 0.40 * under)
+        wing = np.array(self.character.nose) + (0, -0.03, -0.06)
+        beside = np.exp(-((np.linalg.norm((np.abs(x) - 0.10, y - wing[1], z - wing[2]), axis=0) / 0.06) ** 2))
+        toward(linear(palette.blush) * 0.85, 0.30 * beside)
+        chin = np.exp(-((x / 0.16) ** 2) - (((y - self.character.mouth.height + 0.30) / 0.12) ** 2))
+        toward(linear(palette.blush), 0.16 * chin)
+        forehead = smoothstep(0.25, 0.5, low) * smoothstep(0.6, 0.3, np.abs(x))
+        added += 0.05 * forehead[:, None] * tone * (1.0, 0.9, 0.5)
+        jaw = smoothstep(-0.35, -0.75, y) * smoothstep(0.15, 0.4, np.abs(x))
+        added -= 0.10 * jaw[:, None] * tone * (1.0, 0.7, 0.5)
+        mottled = np.sin(9 * x + 4 * y) * np.sin(11 * y - 5 * z + 2) + 0.6 * np.sin(23 * x - 9 * z) * np.sin(19 * y + 1)
+        added += 0.022 * mottled[:, None] * tone * (0.6, 1.0, 0.9)
+        line = np.array(self.character.brows.line)
+        if self.character.brows.hairs:
+            height = np.interp(np.abs(x), line[:, 0], line[:, 1])
+            half = np.interp(np.abs(x), line[:, 0], line[:, 2], left=0.0, right=0.0)
+            ground = np.exp(-(((low - height) / (0.6 * half + 0.006)) ** 2)) * (half > 0)
+            toward(linear(palette.brow), 0.42 * ground)
+        return added
+
     def _beard(self, points: Array) -> Array:
         """(n,) 1 where a beard grows: on jaw, chin and upper lip, not on cheeks and nose."""
         x, y, z = points.T
@@ -266,6 +299,9 @@ class Skin:
         lip[..., :3] += outer[..., None] * (linear(palette.lip) - lip[..., :3])
         lip[..., :3] += inner[..., None] * (linear(palette.inner_lip) - lip[..., :3])
         lip[..., 3] += (0.55 - 0.35) * outer
+        # lips are darker where they meet, and finely lined
+        lined = 0.07 * np.sin(2.7 * np.arange(columns)) + 0.28 * smoothstep(0.45, 0.0, v)
+        lip[..., :3] *= 1 - palette.variation * (outer * lined)[..., None]
         depth = np.linspace(1, 0.1, BAG_RINGS)[:, None, None]
         lattice[:BAG_RINGS, :, :3] = linear(palette.throat) * depth + linear(palette.inner_lip) * 0.7 * (1 - depth)
         lattice[:BAG_RINGS, :, 3] = 0.2
@@ -286,6 +322,7 @@ class Skin:
         tone += warm * (linear(palette.blush) - tone)
         if palette.stubble:
             tone += palette.stubble * self._beard(own)[:, None] * (linear(palette.brow) - tone)
+        tone += palette.variation * self._uneven(own, tone)
         ratio = self._ratio[self._face_own]
         lid = smoothstep(1.45, 1.1, ratio)[:, None]
         tone += 0.7 * lid * (linear(palette.lid) - tone)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
+from core_pipeline.faces.sculpt.brow_hairs import brow_hairs
 from core_pipeline.faces.sculpt.character import Character
 from core_pipeline.faces.sculpt.piece import Piece, Triangles, grid, linear, mirror, paint, tube
 from core_pipeline.faces.sculpt.sdf import Array, Solid, smoothstep
@@ -17,6 +18,8 @@ NECK_AROUND = 34
 def brows(character: Character, clay: Solid) -> list[Piece]:
     """Both brows; they go up in browUp and a little down in blink."""
     shape = character.brows
+    if shape.hairs:
+        return brow_hairs(character, clay)
     rest, triangles = _brow(character, clay, 0.0)
     poses = {"browUp": _brow(character, clay, shape.lift)[0], "blink": _brow(character, clay, -0.012)[0]}
     right = Piece("brow_right", rest, triangles, paint(len(rest), character.palette.brow, 0.3), poses)

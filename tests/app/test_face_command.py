@@ -1,0 +1,54 @@
+"""`lipstitch face` and `render --face`: any rig from the command line."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from app.cli import main
+from tests.helpers.rigs import NAMES, as_glb, as_objs, head
+
+ARKIT = ["jawOpen", *(name for name in NAMES["arkit52"] if name != "jawOpen")]
+
+
+@pytest.fixture(autouse=True)
+def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    for name in ("XDG_CACHE_HOME", "LOCALAPPDATA", "HOME"):
+        monkeypatch.setenv(name, str(tmp_path / "cache"))
+    return tmp_path / "cache"
+
+
+@pytest.mark.parametrize("kind", [as_glb, as_objs])
+def test_a_face_is_told(kind, tmp_path, own_cache, capsys):
+    path = kind(head(ARKIT), tmp_path / "head.glb")
+    for _ in range(2):  # the second time from the cache
+        assert main(["face", str(path)]) == 0
+        out = capsys.readouterr().out.splitlines()
+        assert out[0].endswith(": 231 vertices, 400 triangles.")
+        assert out[1].startswith("52 shapes: ")
+        assert "Poses by ARKit-52:" in out
+        assert "  W = 1 mouthPucker + 0.1 jawOpen + 0.15 mouthFunnel" in out
+        assert out[-1] == "Not available on this face: tBack, tRoof."
+    assert len(list(own_cache.rglob("*.npz"))) == 1
+
+
+def test_what_is_no_face_is_refused_in_a_sentence(tmp_path, capsys):
+    (tmp_path / "face.fbx").write_text("")
+    assert main(["face", str(tmp_path / "face.fbx")]) == 2
+    error = capsys.readouterr().err
+    assert error.startswith("lipstitch: ")
+    assert "export it as .glb" in error
+    assert len(error.splitlines()) == 1
+
+
+def test_a_rig_speaks(tmp_path, capsys):
+    path = as_glb(head(ARKIT), tmp_path / "head.glb")
+    out = tmp_path / "frames"
+    assert main(["render", "Wow.", "--face", str(path), "--out", str(out), "--size", "64x64", "--fps", "8"]) == 0
+    assert "Not available on this face: tBack, tRoof." in capsys.readouterr().err
+    pictures = [np.asarray(Image.open(file)).astype(int) for file in sorted(out.glob("*.png"))]
+    assert len(pictures) > 3
+    assert max(np.abs(picture - pictures[0]).max() for picture in pictures) > 10, "it never moved"
+    assert main(["render", "Wow.", "--face", str(tmp_path / "no.glb"), "--out", str(tmp_path / "none")]) == 2
+    assert not (tmp_path / "none").exists()
