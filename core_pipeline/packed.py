@@ -131,8 +131,8 @@ class PackedSet:
                 count[row] = sizes
                 parts.append(keys)
         start = np.cumsum(count).reshape(count.shape) - count
-        keys = ClosedKeys(*np.concatenate(parts, axis=1))
-        return cls(poses, keys, keys.ramp != 0, start.T.copy(), count.T.copy(), row_of, number)
+        packed = ClosedKeys(*np.concatenate(parts, axis=1))
+        return cls(poses, packed, packed.ramp != 0, start.T.copy(), count.T.copy(), row_of, number)
 
     def numbers(self, phones: tuple[str, ...]) -> Ints:
         """Phone numbers (n,); an unknown phone gets the number that has no bigrams."""

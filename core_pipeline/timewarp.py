@@ -96,7 +96,8 @@ def timewarp(packed: PackedSet, phones: tuple[str, ...], times: Array) -> Warped
     # Per cell (even | odd, pose, bigram // 2).
     def cells(per_bigram: NDArray[Any], step: float) -> NDArray[Any]:
         lanes = np.arange(poses)[:, None] * step
-        return (per_bigram.reshape(half, 2).T[:, None, :] + lanes).ravel()
+        per_cell: NDArray[Any] = (per_bigram.reshape(half, 2).T[:, None, :] + lanes).ravel()
+        return per_cell
 
     place = cells(row, empty + 1)  # in the packed tables (poses, rows+1)
     first_key, count = packed.start.take(place), packed.count.take(place)

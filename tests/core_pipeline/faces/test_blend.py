@@ -83,3 +83,13 @@ def test_the_same_array_is_filled_again():
 def test_amounts_of_another_face_are_refused():
     with pytest.raises(ValueError, match="shape"):
         Blend(BALL).mixed(np.zeros(3))
+
+
+@pytest.mark.parametrize("active", [1, 16, 17, 40])
+def test_few_or_many_active_shapes_are_the_same_sum(active):
+    deltas = np.random.default_rng(active).normal(0, 0.1, (40, len(BALL.positions), 3)).astype(np.float32)
+    face = replace(BALL, shapes=tuple(f"s{i}" for i in range(40)), deltas=deltas, normal_deltas=-deltas)
+    amounts = np.where(np.arange(40) < active, 0.3, 0).astype(np.float32)
+    both = Blend(face).mixed(amounts)
+    np.testing.assert_allclose(both[:, :3], face.deform(amounts), atol=1e-5)
+    np.testing.assert_allclose(both[:, 3:], BALL.normals - np.tensordot(amounts, deltas, 1), atol=1e-5)
