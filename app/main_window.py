@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 
 from PySide6.QtCore import QByteArray, Qt, Signal
-from PySide6.QtGui import QCloseEvent, QKeyEvent, QPalette, QShowEvent
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeyEvent, QPalette, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QDockWidget,
     QHBoxLayout,
@@ -44,9 +45,11 @@ class MainWindow(QMainWindow):
     """The editor's window. `may_close` is asked before it closes.
 
     play_wanted()  Space, where nothing that has the focus wants it
+    dropped(Path)  a file or folder was dropped on the window
     """
 
     play_wanted = Signal()
+    dropped = Signal(Path)
 
     def __init__(self, document: Document) -> None:
         super().__init__()
@@ -77,7 +80,8 @@ class MainWindow(QMainWindow):
         self._docks()
         self._status()
         self._first_state = self.saveState()
-        self.setMinimumSize(900, 560)
+        self.setAcceptDrops(True)
+        self.setMinimumSize(1120, 640)
         self.resize(1600, 1000)
 
     def closeEvent(self, event: QCloseEvent) -> None:
@@ -86,6 +90,17 @@ class MainWindow(QMainWindow):
             event.accept()
         else:
             event.ignore()
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        """One file or folder of this machine is welcome."""
+        urls = event.mimeData().urls()
+        if len(urls) == 1 and urls[0].isLocalFile():
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QDropEvent) -> None:
+        """Say what was dropped."""
+        event.acceptProposedAction()
+        self.dropped.emit(Path(event.mimeData().urls()[0].toLocalFile()))
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Space plays the sentence."""
@@ -99,6 +114,12 @@ class MainWindow(QMainWindow):
         super().showEvent(event)
         if not self._sized:
             self._sized = True
+            self.default_layout()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """A window made low puts its docks behind one another."""
+        super().resizeEvent(event)
+        if self._sized and event.size().height() < LOW <= event.oldSize().height():
             self.default_layout()
 
     def restore_layout(self, geometry: QByteArray, docks: QByteArray) -> None:

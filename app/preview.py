@@ -21,6 +21,8 @@ from .session import Session
 
 #: A bigram plays over this long by default, in seconds (two phones of average length).
 BIGRAM_SECONDS = 0.4
+#: From the side, in degrees: there the open half shows the tongue.
+CUTAWAY_YAW = 65.0
 #: While a key is dragged the face is drawn this often: software OpenGL takes every core, and the hand comes first.
 GESTURE_SECONDS = 0.04
 
@@ -177,8 +179,9 @@ class Preview(QObject):
         self.refresh()
 
     def cut_away(self, on: bool) -> None:
-        """Hide the near half of the head, so that the tongue can be seen."""
-        self._view = replace(self._view, cutaway=on)
+        """Hide the near half of the head and look in from the side, so that the tongue can be seen."""
+        yaw = CUTAWAY_YAW if on else self._view.home.yaw
+        self._view = replace(self._view, cutaway=on, yaw=yaw)
         self.refresh()
 
     def resize(self, width: int, height: int) -> None:

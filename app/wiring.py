@@ -6,6 +6,8 @@ character.py the face; here is the rest: the document's news, the pipeline's res
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from PySide6.QtCore import QObject, QTimer
 from PySide6.QtWidgets import QMessageBox
 
@@ -110,6 +112,7 @@ class Wiring(QObject):
         a.loop.toggled.connect(self.sentence.set_loop)
         a.safe_colours.toggled.connect(w.stage_panel.set_palette_safe)
         w.play_wanted.connect(self._preview.toggle_sentence)
+        w.dropped.connect(self._open_dropped)
 
     # ── document → views ─────────────────────────────────────────────────────────────────────────
 
@@ -228,6 +231,13 @@ class Wiring(QObject):
         self._window.hint_label.setText(reason)
 
     # ── the window ───────────────────────────────────────────────────────────────────────────────
+
+    def _open_dropped(self, path: Path) -> None:
+        """A curve set, or else a face."""
+        if path.suffix.lower() != ".json":
+            self.character.open(path)
+        elif self._files.may_discard():
+            self._files.open(path)
 
     def _about(self) -> None:
         QMessageBox.about(

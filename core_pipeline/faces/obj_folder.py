@@ -14,17 +14,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core_pipeline.errors import UserError
-from core_pipeline.faces.face import Face
+from core_pipeline.faces.face import Face, Floats
 from core_pipeline.faces.framing import frame
 from core_pipeline.faces.limits import LARGEST, MAX_FILE, MAX_MORPH_BYTES, MAX_VERTICES
 from core_pipeline.faces.normals import shape_normals
+from core_pipeline.faces.obj_colours import SKIN, linear, part_colours
 from core_pipeline.faces.retarget import normalised
 from core_pipeline.files.atomic import read_bytes
 from core_pipeline.files.json_text import shown
 
 MAX_POSES = 1000
 MAX_LINES = 12_000_000
-SKIN = (0.62, 0.42, 0.34, 0.35)
+#: Named parts whose names are looked at.
+MAX_PARTS = 10_000
 
 _NEUTRAL = frozenset({"neutral", "rest", "base", "basis", "default", "neutralpose", "restpose"})
 _AFTER_SLASH = re.compile(rb"/\S*")
@@ -47,11 +49,11 @@ def read_obj_folder(folder: Path, cancelled: Cancelled = lambda: False) -> tuple
         raise UserError(f"{folder}: there are no poses beside {neutral.name}; export one .obj per pose.")
     if len(poses) > MAX_POSES:
         raise UserError(f"{folder}: {len(poses):,} .obj files are more than {MAX_POSES:,}; keep the poses only.")
-    base = _Obj(neutral)
+    base = _Obj(neutral, parts=True)
     count = len(base.vertices)
     if count * len(poses) * 24 > MAX_MORPH_BYTES:
         raise UserError(f"{folder}: {count:,} vertices × {len(poses)} poses need more than 1 GB; reduce the mesh.")
-    triangles = base.triangles()
+    triangles, colours = _dressed(base)
     deltas = np.zeros((len(poses), count, 3), np.float32)
     for row, path in enumerate(poses):
         if cancelled():
@@ -65,7 +67,7 @@ def read_obj_folder(folder: Path, cancelled: Cancelled = lambda: False) -> tuple
         positions=positions,
         normals=normals,
         triangles=triangles,
-        colours=np.tile(np.array(SKIN, np.float32), (count, 1)),
+        colours=colours,
         shapes=tuple(path.stem for path in poses),
         deltas=deltas,
         normal_deltas=normal_deltas,
@@ -73,6 +75,24 @@ def read_obj_folder(folder: Path, cancelled: Cancelled = lambda: False) -> tuple
         camera=frame(positions),
     )
     return face, ()
+
+
+def _dressed(base: _Obj) -> tuple[NDArray[np.uint32], Floats]:
+    """The triangles that can be seen, and a colour for every vertex."""
+    triangles, owner = base.triangles(), base.owner()
+    colours = np.tile(np.array(SKIN, np.float32), (len(base.vertices), 1))
+    names = base.part_names()
+    part = np.repeat(np.arange(len(names)), np.diff([*(first for first, _ in names), owner.max() + 1]))[owner]
+    shown = np.ones(len(triangles), bool)
+    found = part_colours([name for _, name in names], base.path.parent, base.library)
+    for number, colour in enumerate(found):
+        mine = part == number
+        shown[mine] = colour is not None
+        if colour is not None:
+            colours[triangles[mine].ravel()] = colour
+    if base.colours is not None:
+        colours[:, :3] = linear(base.colours)
+    return triangles[shown] if shown.any() else triangles, colours
 
 
 def _neutral(folder: Path, paths: list[Path]) -> Path:
@@ -89,9 +109,9 @@ def _neutral(folder: Path, paths: list[Path]) -> Path:
 
 
 class _Obj:
-    """One file: `vertices` (n, 3); its faces are read only when asked for."""
+    """One file: `vertices` (n, 3), `colours` (n, 3) or None; its faces are read only when asked for."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, parts: bool = False) -> None:
         self.path = path
         raw = read_bytes(path, MAX_FILE, "mesh")
         if b"\\" in raw:  # a line goes on after a backslash
@@ -103,8 +123,11 @@ class _Obj:
             raise self.fail(f"it has more than {MAX_LINES:,} lines; reduce the mesh.")
         self._bytes = np.frombuffer(self._raw, np.uint8)
         self._starts = np.concatenate([[0], np.flatnonzero(self._bytes == _NEWLINE) + 1])
+        self.colours: NDArray[np.float64] | None = None
+        self.library: str | None = None
         self.vertices = self._vertices()
         self._faces = self._lines(b"f")
+        self._parts = self._named_parts() if parts else []
         del self._raw, self._bytes, self._starts
 
     def fail(self, what: str) -> UserError:
@@ -133,7 +156,42 @@ class _Obj:
         corners = np.where(corners < 0, corners + count, corners - 1)
         if corners.min() < 0 or corners.max() >= count:
             raise self.fail(f"a face uses a vertex that is not among its {count:,}; the file is damaged.")
+        self._sizes = sizes
         return _fans(corners, sizes).astype(np.uint32)
+
+    def owner(self) -> Ints:
+        """(m,) the polygon each triangle was cut from; after `triangles`."""
+        return np.repeat(np.arange(len(self._sizes)), self._sizes - 2)
+
+    def part_names(self) -> list[tuple[int, str]]:
+        """(first polygon, "group material") of each stretch of polygons, the first beginning at 0."""
+        return self._parts
+
+    def _named_parts(self) -> list[tuple[int, str]]:
+        starts, lines = self._starts, np.flatnonzero(np.isin(self._bytes[self._starts[:-1]], list(b"ugom")))
+        if len(lines) > MAX_PARTS:
+            return [(0, "")]
+        is_face = self._is(b"f")
+        before: Ints = np.cumsum(is_face) - is_face
+        parts = [(0, "")]
+        now = {"o": "", "g": "", "usemtl": ""}
+        for line in lines.tolist():
+            key, *words = self._raw[starts[line] : starts[line + 1]].decode("utf-8", "replace").split() or [""]
+            if key == "mtllib" and words:
+                self.library = " ".join(words)
+            elif key in now:
+                now[key] = " ".join(words)
+                first = int(before[line])
+                parts = [part for part in parts if part[0] < first] if parts[-1][0] == first else parts
+                parts.append((first, " ".join(now.values())))
+        return parts
+
+    def _is(self, key: bytes) -> NDArray[np.bool_]:
+        """(lines,) whether a line begins with the key."""
+        raw, starts = self._bytes, self._starts
+        second = raw[np.minimum(starts[:-1] + 1, len(raw) - 1)]
+        found: NDArray[np.bool_] = (raw[starts[:-1]] == key[0]) & ((second == _SPACE) | (second == _TAB))
+        return found
 
     def _vertices(self) -> NDArray[np.float64]:
         text = self._lines(b"v")
@@ -144,6 +202,8 @@ class _Obj:
         width = len(numbers) // rows if rows else 0
         if width not in (3, 4, 6, 7) or len(numbers) != rows * width:
             raise self.fail("its vertices are not three numbers each; the file is damaged or no .obj mesh.")
+        if width >= 6:
+            self.colours = numbers.reshape(rows, width)[:, 3:6]
         vertices = numbers.reshape(rows, width)[:, :3]
         if not (np.abs(vertices) <= LARGEST).all():
             raise self.fail(f"a vertex is not a number, or above {LARGEST:,.0f}; export it in metres or centimetres.")
@@ -157,10 +217,8 @@ class _Obj:
 
     def _lines(self, key: bytes) -> bytes:
         """What follows the key on all lines that begin with it, one line each."""
-        raw, starts = self._bytes, self._starts
-        second = raw[np.minimum(starts[:-1] + 1, len(raw) - 1)]
-        wanted = (raw[starts[:-1]] == key[0]) & ((second == _SPACE) | (second == _TAB))
-        edges = np.flatnonzero(np.diff(np.concatenate([[False], wanted, [False]])))
+        starts = self._starts
+        edges = np.flatnonzero(np.diff(np.concatenate([[False], self._is(key), [False]])))
         runs = [self._raw[starts[a] : starts[b]] for a, b in edges.reshape(-1, 2)]
         return b"".join(runs).replace(key, b" ")
 

@@ -15,18 +15,24 @@ from core_pipeline.curves import Curve
 from core_pipeline.poses import FACEFX
 from tests.helpers.budget import within
 from widgets.curve_canvas import CurveCanvas
+from widgets.curve_panel import CurvePanel
 
 
-@pytest.fixture
-def canvas(qtbot):
+def nine_poses():
     widget = CurveCanvas()
-    qtbot.addWidget(widget)
     widget.resize(900, 500)
     dice = np.random.default_rng(2013)
     widget.set_poses(FACEFX)
     widget.set_bigram("f", "ah")
-    widget.set_curves({pose: Curve(np.linspace(0, 1, 12), dice.random(12)) for pose in FACEFX})
+    widget.set_curves({pose: Curve(np.linspace(0.02, 0.98, 12), dice.uniform(0.1, 0.9, 12)) for pose in FACEFX})
     widget.set_active("FV")
+    return widget
+
+
+@pytest.fixture
+def canvas(qtbot):
+    widget = nine_poses()
+    qtbot.addWidget(widget)
     widget.show()
     qtbot.waitExposed(widget)
     return widget
@@ -65,3 +71,42 @@ def test_one_step_of_the_playhead(canvas, benchmark):
 
     benchmark(step)
     within(benchmark, 0.004)
+
+
+@pytest.mark.parametrize("gesture", ["move", "scale", "move, with figures", "blend"])
+def test_one_step_of_every_gesture_with_everything_selected(qtbot, benchmark, gesture):
+    """All 108 keys at once: the transform box around them, and beside the canvas fields and table that follow."""
+    canvas = nine_poses()
+    shown = CurvePanel(canvas) if "figures" in gesture else canvas
+    qtbot.addWidget(shown)
+    if shown is not canvas:
+        shown.resize(1100, 560)
+        shown.show_table(True)
+    shown.show()
+    qtbot.waitExposed(shown)
+    canvas.set_ghost({pose: Curve(curve.t, curve.v[::-1]) for pose, curve in canvas.curves.items()})
+    canvas.select_all()
+    canvas.select_all()
+    assert len(canvas.selection) == 108
+    if gesture == "blend":
+        canvas.slide()
+    elif gesture == "scale":
+        canvas.begin_scale()
+    else:
+        canvas.begin_move()
+    start, none = canvas.point_of(0.5, 0.5), Qt.MouseButton.NoButton
+    places = cycle([start + QPointF(60 + 25 * np.sin(i / 5), i % 40 - 20) for i in range(4, 84)])
+    shares = cycle([*range(1, 99), *range(99, 1, -1)])
+    previews = []
+    canvas.preview_changed.connect(previews.append)
+
+    def step():
+        if gesture == "blend":
+            canvas.blend_bar.slider.setValue(next(shares))
+        else:
+            send(canvas, QEvent.Type.MouseMove, next(places), none, none)
+        QApplication.processEvents()
+
+    benchmark(step)
+    assert previews
+    within(benchmark, 0.016)

@@ -131,7 +131,7 @@ def test_nothing_flaps_and_the_speed_limit_takes_little(results: list[Stages], p
     [
         ("aa", "mouth open", 0.45, 0.70), ("ao", "mouth open", 0.40, 0.60), ("ah", "mouth open", 0.30, 0.50),
         ("w", "mouth OO", 0.70, 0.90), ("ow", "mouth OO", 0.55, 0.80), ("sh", "mouth OO", 0.40, 0.60),
-        ("sh", "bare teeth", 0.50, 0.70), ("z", "bare teeth", 0.50, 0.70), ("z", "mouth open", 0.00, 0.20),
+        ("sh", "bare teeth", 0.62, 0.85), ("z", "bare teeth", 0.50, 0.70), ("z", "mouth open", 0.00, 0.20),
         ("ih", "smile", 0.40, 0.60), ("aa", "frown", 0.08, 0.20), ("l", "tongue up", 0.50, 0.70),
         ("d", "tongue up", 0.40, 0.60), ("th", "tongue out", 0.55, 0.75), ("kg", "tongue back", 0.42, 0.62),
     ],

@@ -6,12 +6,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPointF, Qt
+from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
+from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QMessageBox
+from PySide6.QtWidgets import QApplication, QMessageBox
 from pytestqt.qtbot import QtBot
 
+from app import resources
 from app.editor import Editor
+from core_pipeline.curve_set import CurveSet
 from core_pipeline.files import curve_set_json
 from core_pipeline.pipeline import Stages
 from core_pipeline.settings import Settings
@@ -253,3 +256,42 @@ def test_undo_of_another_bigram_shows_that_bigram(editor: Editor, qtbot: QtBot) 
     editor.window.actions_.undo.trigger()
     assert editor.wiring.bigram.pair == ("f", "ah")
     assert editor.window.picker.current == ("f", "ah")
+
+
+def drop(editor: Editor, path: Path) -> None:
+    """Drop a file on the window."""
+    data = QMimeData()
+    data.setUrls([QUrl.fromLocalFile(str(path))])
+    copy, left, no = Qt.DropAction.CopyAction, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
+    enter = QDragEnterEvent(QPoint(300, 300), copy, data, left, no)
+    QApplication.sendEvent(editor.window, enter)
+    assert enter.isAccepted()
+    QApplication.sendEvent(editor.window, QDropEvent(QPointF(300, 300), copy, data, left, no))
+
+
+def test_a_dropped_curve_set_is_opened_and_a_dropped_face_is_shown(
+    editor: Editor, qtbot: QtBot, tmp_path: Path
+) -> None:
+    mine = tmp_path / "mine.json"
+    curve_set_json.save(CurveSet(name="Mine"), mine)
+    drop(editor, mine)
+    assert editor.document.curve_set.name == "Mine"
+    assert editor.document.path == mine
+    rig = tmp_path / "rig.glb"
+    rig.write_bytes((resources.face_folder() / "face.glb").read_bytes())
+    with qtbot.waitSignal(editor.faces.opened, timeout=20_000):
+        drop(editor, rig)
+    assert editor.preview.face is not None
+    assert editor.preview.face.mix("PBM")
+
+
+def test_a_file_that_is_no_face_is_told_and_the_face_stays(editor: Editor, qtbot: QtBot, tmp_path: Path) -> None:
+    qtbot.waitUntil(lambda: editor.preview.face is not None, timeout=20_000)
+    before = editor.preview.face
+    wrong = tmp_path / "wrong.glb"
+    wrong.write_bytes(b"not a face")
+    with qtbot.waitSignal(editor.faces.failed, timeout=20_000) as failed:
+        drop(editor, wrong)
+    assert "wrong.glb" in failed.args[0]
+    assert editor.window.hint_label.text() == failed.args[0]
+    assert editor.preview.face is before

@@ -6,8 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core_pipeline.curves import MIN_GAP, Curve
-from widgets.curve_controller import ADD, DELETE, MOVE, NUDGE, PLAIN, CurveController, Modifiers
-from widgets.curve_geometry import View, distance_to_line, feasible, shifted
+from widgets.curve_clipboard import Copied
+from widgets.curve_controller import ADD, DELETE, MOVE, NUDGE, PLAIN, SCALE, CurveController, Modifiers
+from widgets.curve_edits import blended, reversed_keys, stretched
+from widgets.curve_geometry import View, distance_to_line, feasible, feasible_scale, shifted
+from widgets.curve_gestures import BLEND
 from widgets.curve_scene import Refusal
 
 POSES = ("open", "FV", "wide")
@@ -391,10 +394,57 @@ actions = st.one_of(
     st.tuples(st.just("delete")),
     st.tuples(st.just("nudge"), st.floats(-0.5, 0.5), st.floats(-0.5, 0.5)),
     st.tuples(st.just("all")),
+    st.tuples(st.just("take"), points),
+    st.tuples(st.just("scale"), st.none() | points),
+    st.tuples(st.just("handle"), st.integers(0, 7), held),
+    st.tuples(st.just("axis"), st.sampled_from("tv")),
+    st.tuples(st.just("reverse")),
+    st.tuples(
+        st.just("type"), st.sampled_from("tv"), st.sampled_from(("*0.5", "/3", "+0.3", "-0.2", "=0.4", "9", "?"))
+    ),
+    st.tuples(st.just("paste"), curves(), st.booleans(), st.booleans()),
+    st.tuples(st.just("swap"), curves()),
+    st.tuples(st.just("slide"), curves(), st.floats(0, 1)),
     st.tuples(st.just("lock"), st.sampled_from(POSES)),
     st.tuples(st.just("hide"), st.sampled_from(POSES)),
     st.tuples(st.just("outside"), curves()),
 )
+
+
+def press_handle(control: CurveController, number: int, keys_held: Modifiers):
+    box = control.box()
+    if box is not None:
+        places = list(box.handles(control.view).values())
+        control.press(*places[number % len(places)], keys_held)
+
+
+def take(control: CurveController, at: tuple[float, float]):
+    control.begin_move(*at)
+
+
+def scale(control: CurveController, at: tuple[float, float] | None):
+    control.begin_scale(at)
+
+
+def slide(control: CurveController, curve: Curve, share: float):
+    if control.begin_blend({"open": curve}):
+        control.blend(share)
+
+
+#: Actions that need no pointer: what they call, and what of it is an edit.
+KEYED = {
+    "take": take,
+    "scale": scale,
+    "handle": press_handle,
+    "axis": lambda control, axis: control.keep_axis(axis),
+    "reverse": lambda control: control.reverse(),
+    "type": lambda control, axis, text: control.type_value(axis, text),
+    "paste": lambda control, curve, whole, backwards: control.paste(
+        Copied({"x": curve}, frozenset({"x"} if whole else ())), backwards=backwards
+    ),
+    "swap": lambda control, curve: control.swap({"open": curve}),
+    "slide": slide,
+}
 
 
 def perform(control: CurveController, action):
@@ -419,6 +469,8 @@ def perform(control: CurveController, action):
         return control.nudge(*rest)
     elif name == "all":
         control.select_all()
+    elif name in KEYED:
+        return KEYED[name](control, *rest)
     elif name == "lock":
         control.set_locked(control.locked ^ {rest[0]})
     elif name == "hide":
@@ -447,7 +499,7 @@ def test_whatever_the_hand_does_keys_stay_in_order_and_in_range(first, second, s
             assert edit.changes
             for pose, curve in edit.changes.items():
                 assert control.curves.get(pose) is curve
-                assert edit.label == MOVE or curve is None or not curve.same_as(before.get(pose))
+                assert edit.label in {MOVE, SCALE, BLEND} or curve is None or not curve.same_as(before.get(pose))
 
 
 @given(curves(), st.data(), st.floats(-400, 400), st.floats(-400, 400))
@@ -463,6 +515,40 @@ def test_the_clamp_never_makes_a_gap_smaller_than_it_must(curve, data, dx, dy):
     stays = [i for i in range(len(curve)) if i not in chosen]
     assert moved.t[stays].tolist() == curve.t[stays].tolist()
     assert moved.v[stays].tolist() == curve.v[stays].tolist()
+
+
+@given(curves(), st.data(), st.floats(0, 5), st.floats(0, 5), st.tuples(st.floats(0, 1), st.floats(0, 1)))
+@settings(max_examples=100, deadline=None)
+def test_scaling_never_makes_a_gap_smaller_than_it_must_nor_changes_the_order(curve, data, in_t, in_v, pivot):
+    chosen = data.draw(st.sets(st.integers(0, len(curve) - 1), min_size=1).map(sorted))
+    t_lo, t_hi, v_lo, v_hi = feasible_scale({"open": curve}, {"open": chosen}, pivot)
+    assert 0 <= t_lo <= 1 <= t_hi
+    assert 0 <= v_lo <= 1 <= v_hi
+    new = stretched({"open": curve}, {"open": chosen}, pivot, (in_t, in_v)).get("open", curve)
+    least = np.minimum(np.diff(curve.t), MIN_GAP)
+    assert (np.diff(new.t) >= least - 1.1e-6).all()
+    stays = [i for i in range(len(curve)) if i not in chosen]
+    assert new.t[stays].tolist() == curve.t[stays].tolist()
+    assert new.v[stays].tolist() == curve.v[stays].tolist()
+
+
+@given(curves())
+def test_reversing_a_curve_twice_gives_it_back(curve):
+    everything = {"open": list(range(len(curve)))}
+    once = reversed_keys({"open": curve}, everything)["open"][0]
+    twice = reversed_keys({"open": once}, everything)["open"][0]
+    np.testing.assert_allclose(twice.t, curve.t, atol=1e-6)
+    np.testing.assert_allclose(twice.v, curve.v, atol=1e-6)
+    np.testing.assert_allclose(once.at(0.3), curve.at(0.7), atol=1e-2)
+
+
+@given(curves(), curves(), st.floats(0, 1))
+def test_a_blend_lies_between_its_ends(one, other, share):
+    at = np.linspace(0, 1, 41)
+    low, high = min(one.v.min(), other.v.min()), max(one.v.max(), other.v.max())
+    between = blended(one, other, share).at(at)
+    assert (between >= low - 1e-6).all()
+    assert (between <= high + 1e-6).all()
 
 
 @given(curves(), st.data(), st.lists(points, max_size=6), held)

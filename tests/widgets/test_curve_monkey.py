@@ -195,7 +195,7 @@ def check(hand, told):
         assert label
         assert changes
         for pose, curve in changes.items():
-            assert pose in FACEFX
+            assert canvas._control.refuses(pose) is None
             assert curve is not None or pose in before
             assert curve is None or not curve.same_as(before.get(pose))
     least = min((np.diff(c.t).min() for c in history[0].values() if len(c) > 1), default=MIN_GAP)

@@ -131,7 +131,7 @@ ADA = Character(
     rest_tongue=REST,
     mouth=Mouth(
         height=-0.44, half_width=0.25, smile=0.035, upper=0.046, lower=0.064, upper_depth=0.026, lower_depth=0.034,
-        lap=0.03, bow=1.5, rim=0.012, hinge=(0.0, -0.12, -0.08), bag=(0.32, 0.20, 0.55),
+        lap=0.03, bow=1.5, rim=0.015, hinge=(0.0, -0.12, -0.08), bag=(0.32, 0.20, 0.55),
     ),
     teeth=Dentition(half_width=0.245, depth=0.36, behind_lips=0.08, edge=-0.022, upper_height=0.115, lower_height=0.10),
     eyes=Eyes(
@@ -147,7 +147,7 @@ ADA = Character(
     body=Body(neck=0.27, middle=-0.22, collar=-1.28),
     palette=Palette(
         skin=(0.82, 0.60, 0.47), blush=(0.82, 0.40, 0.32), lip=(0.72, 0.35, 0.33), lid=(0.66, 0.43, 0.34),
-        inner_lip=(0.50, 0.20, 0.19), hair=(0.13, 0.07, 0.045), hair_light=(0.44, 0.27, 0.16), brow=(0.12, 0.075, 0.055),
+        inner_lip=(0.50, 0.20, 0.19), hair=(0.13, 0.07, 0.045), hair_light=(0.44, 0.27, 0.16), brow=(0.17, 0.105, 0.075),
         lash=(0.03, 0.02, 0.02), shirt=(0.50, 0.13, 0.17), shirt_trim=(0.50, 0.13, 0.17), variation=1.0,
     ),
     camera=Camera(target=(0.0, 0.02, 0.0), distance=6.9, yaw=0.0, pitch=0.0, fov=24.0),

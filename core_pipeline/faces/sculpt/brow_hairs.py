@@ -37,8 +37,8 @@ def _hairs(character: Character, clay: Solid, lift: float) -> Array:
     x, y, half = (PchipInterpolator(knots, known[:, i])(u) for i in range(3))
     half = half * (0.45 + 0.55 * smoothstep(0.0, 0.16, u))
     slope = np.gradient(y, x)
-    lean = np.radians(38 * (1 - u) ** 2 - 12 * u - 24 * level) + 0.8 * np.arctan(slope)
-    length = 0.048 + 0.026 * np.sin(np.pi * u)
+    lean = np.radians(30 * (1 - u) ** 2 + 40 * np.exp(-u / 0.05) - 12 * u - 24 * level) + 0.8 * np.arctan(slope)
+    length = (0.046 + 0.026 * np.sin(np.pi * u)) * (0.7 + 0.6 * ((number * 0.754878) % 1))
     root_y = y + level * 0.72 * half + character.eyes.centre[1] + lift
     bend = -0.25 * level * STEPS[:, None]
     px = x + STEPS[:, None] * length * np.cos(lean + bend)

@@ -28,8 +28,8 @@ POSES = {
         tongue=TongueBend(((-0.36, -0.72), (-0.20, -0.68), (-0.24, -0.54), (-0.24, -0.44))),
     ),
     "bare teeth": MouthPose(
-        width=0.10, raise_upper=0.105, drop_lower=0.075, roll_upper=8, roll_lower=8, thick=-0.12, corners=0.015,
-        flat=1.0, upper_teeth=(0.0, 0.025), lower_teeth=(0.045, 0.015),
+        width=0.10, raise_upper=0.105, drop_lower=0.084, roll_upper=8, roll_lower=8, thick=-0.12, corners=0.015,
+        flat=1.0, upper_teeth=(-0.012, 0.025), lower_teeth=(0.055, 0.015),
     ),
     "smile": MouthPose(
         width=0.16, corners=0.105, raise_upper=-0.035, drop_lower=0.035, thick=-0.10, cheeks=0.06, forward=-0.01
@@ -115,7 +115,7 @@ CRAB = Crab(
         lap=0.055, bow=0.0, hinge=(0.0, 0.0, -0.05), bag=(0.58, 0.32, 0.62), inset=1.0,
     ),
     teeth=Dentition(
-        half_width=0.46, depth=0.46, behind_lips=0.085, upper_height=0.17, lower_height=0.14, edge=-0.02,
+        half_width=0.46, depth=0.46, behind_lips=0.085, upper_height=0.185, lower_height=0.16, edge=-0.02,
         bite=0.042, per_side=4
     ),
     eyes=Eyes(

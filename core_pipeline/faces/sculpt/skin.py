@@ -101,7 +101,7 @@ class Skin:
         pull = (0.5 * loose * (0.25 + 0.75 * smoothstep(0.0, 0.14, np.abs(points[:, 0]))))[:, None]
         for _ in range(12):
             points = points + pull * (self.layout.neighbour_mean(points) - points)
-        depth = 0.045 * self.character.eyes.crease * self.character.eyes.radius * self._crease(points)
+        depth = 0.06 * self.character.eyes.crease * self.character.eyes.radius * self._crease(points)
         away = points - centre
         return points - away * (depth / np.linalg.norm(away, axis=1))[:, None]
 
@@ -111,8 +111,8 @@ class Skin:
         across = np.abs(np.abs(points[:, 0]) - self.lid.centre[0]) / self.character.eyes.radius
         # it follows a ring of the mesh; above the eye the rings lie farther apart
         ring = EYE_RINGS[0] + (1 + self.character.eyes.spread) * (CREASE - EYE_RINGS[0])
-        fold: Array = np.exp(-(((self._ratio - ring) / 0.11) ** 2)) * smoothstep(0.0, 0.05, height)
-        return fold * smoothstep(1.15, 0.7, across)
+        fold: Array = np.exp(-(((self._ratio - ring) / 0.24) ** 2)) * smoothstep(0.0, 0.05, height)
+        return self._smoothed(fold * smoothstep(1.15, 0.7, across))
 
     def _smoothed(self, values: Array) -> Array:
         """(layout points,) values without the grain of the mesh."""

@@ -30,7 +30,7 @@ COMBINED = (
     *({shape: 1.0} for shape in FACE.shapes),
     {"smile": 0.5, "mouth open": 0.4},
     {"mouth OO": 0.7, "mouth open": 0.5},
-    {"mouth OO": 0.5, "bare teeth": 0.58},
+    {"mouth OO": 0.44, "bare teeth": 0.75},
     {"bare teeth": 0.6, "lips shut": 0.38},
     {"lips shut": 0.8, "bare teeth": 0.35},
     {"frown": 0.3, "mouth open": 0.6},

@@ -13,8 +13,8 @@ from PIL import Image
 from core_pipeline.errors import UserError
 from core_pipeline.faces import glb
 from core_pipeline.faces.glb import read_glb, read_rig
-from tests.core_pipeline.faces.test_meshopt import packed_tetrahedron
 from tests.helpers.gltf import Gltf, tetrahedron
+from tests.helpers.meshopt_streams import packed_tetrahedron
 
 
 def read(tmp_path, gltf, name="face.glb"):

@@ -1,10 +1,7 @@
 """Compressed buffer views: streams from the reference encoder come back as what they were made from."""
 
-import base64
-import json
 import random
 import struct
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,10 +10,8 @@ from core_pipeline.errors import UserError
 from core_pipeline.faces.glb import read_glb
 from core_pipeline.faces.meshopt import decode
 from tests.helpers.gltf import tetrahedron
+from tests.helpers.meshopt_streams import CORNERS, STREAMS, packed_tetrahedron
 
-_FILE = json.loads((Path(__file__).resolve().parents[2] / "data" / "meshopt_streams.json").read_text())
-CORNERS = _FILE["corners"]
-STREAMS = {name: base64.b64decode(text) for name, text in _FILE["streams"].items()}
 SEQUENCE = [0, 1, 2, 2, 1, 3, 500, 4, 501, 5, 70000, 6]
 
 
@@ -64,28 +59,6 @@ def test_rotations():
 def test_floats():
     expected = [[0, 1.5, -2.25], [1000, 0.001, -0.5], [3, 4, 5], [1e-6, 0, 1]]
     np.testing.assert_allclose(rows("exponential", 4, 12, "EXPONENTIAL", "<f4"), expected, rtol=1e-5)
-
-
-def packed_tetrahedron():
-    """The plain tetrahedron of the other tests, with every buffer view packed."""
-    gltf = tetrahedron()
-    primitive = gltf.primitive()
-    jobs = [
-        (primitive["attributes"]["POSITION"], "tetra points", 4, 12, {"mode": "ATTRIBUTES"}),
-        (primitive["indices"], "tetra corners", 12, 4, {"mode": "TRIANGLES"}),
-        (primitive["targets"][0]["POSITION"], "tetra up", 4, 12, {"mode": "ATTRIBUTES", "filter": "EXPONENTIAL"}),
-    ]
-    for accessor, name, count, stride, how in jobs:
-        packed = gltf.json["bufferViews"][gltf.view(np.frombuffer(STREAMS[name], np.uint8))]
-        extension = {**packed, "count": count, "byteStride": stride, **how}
-        gltf.json["bufferViews"].append(
-            {"buffer": 1, "byteLength": count * stride, "extensions": {"EXT_meshopt_compression": extension}}
-        )
-        gltf.json["accessors"][accessor]["bufferView"] = len(gltf.json["bufferViews"]) - 1
-    gltf.json["accessors"][primitive["indices"]]["componentType"] = 5125
-    gltf.json["buffers"].append({"byteLength": 96, "extensions": {"EXT_meshopt_compression": {"fallback": True}}})
-    gltf.json["extensionsRequired"] = ["EXT_meshopt_compression"]
-    return gltf
 
 
 def test_a_packed_file_is_the_same_face(tmp_path):

@@ -6,6 +6,7 @@ import pytest
 from core_pipeline.errors import UserError
 from core_pipeline.faces import obj_folder
 from core_pipeline.faces.limits import MAX_FILE
+from core_pipeline.faces.obj_colours import SKIN
 from core_pipeline.faces.obj_folder import read_obj_folder
 from tests.helpers.rigs import as_objs, head
 
@@ -156,3 +157,50 @@ def test_opening_can_be_cancelled(tmp_path):
     with pytest.raises(UserError, match="cancelled"):
         read_obj_folder(folder(tmp_path, neutral=QUAD, a=LIFTED, b=LIFTED), second_time)
     assert len(asked) == 2
+
+
+# --- colours
+
+TWO = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv 3 0 0\nv 2 1 0\n"
+
+
+def parts(tmp_path, first, second):
+    text = TWO + f"{first}\nf 1 2 3\n{second}\nf 4 5 6\n"
+    return read(tmp_path, neutral=text, up=text.replace("v 0 1 0", "v 0 1 1"))
+
+
+def test_parts_take_the_colour_their_names_suggest(tmp_path):
+    face = parts(tmp_path, "g head\nusemtl M_Face", "g mouth\nusemtl M_Teeth")
+    np.testing.assert_allclose(face.colours[:3], [SKIN] * 3)
+    assert (face.colours[3:, :3].min(axis=1) > 0.6).all(), "teeth are light"
+
+
+def test_clear_shells_before_the_eyes_are_left_out(tmp_path):
+    face = parts(tmp_path, "o Face", "o EyeOcclusion_L")
+    assert face.triangles.tolist() == [[0, 1, 2]]
+    assert len(face.positions) == 6, "and the vertices keep their numbers"
+    (tmp_path / "all").mkdir()
+    assert len(parts(tmp_path / "all", "g lens", "g tear").triangles) == 2, "but something is always shown"
+
+
+def test_colours_of_the_material_file(tmp_path):
+    (tmp_path / "face.mtl").write_text("newmtl red\nKd 1 0 0\nnewmtl grey\nKd .8 .8 .8\nnewmtl off\nKd 0 1 0\nd 0.0\n")
+    face = parts(tmp_path, "mtllib face.mtl\nusemtl red", "usemtl grey")
+    np.testing.assert_allclose(face.colours[:3, :3], [[1, 0, 0]] * 3)
+    np.testing.assert_allclose(face.colours[3:], [SKIN] * 3, err_msg="grey is what exporters write for nothing")
+    assert len(parts(tmp_path, "mtllib face.mtl\nusemtl red", "usemtl off").triangles) == 1
+
+
+@pytest.mark.parametrize("library", ["../face.mtl", "/etc/hostname", "none.mtl", "\udc80", "x" * 5000, "a\0b"])
+def test_material_files_elsewhere_are_not_read(tmp_path, library):
+    (tmp_path / "face.mtl").write_text("newmtl red\nKd 1 0 0\n")
+    inside = tmp_path / "inside"
+    inside.mkdir()
+    text = (f"mtllib {library}\nusemtl red\n" + QUAD).encode(errors="surrogateescape")
+    np.testing.assert_allclose(read(inside, neutral=text, up=LIFTED).colours, [SKIN] * 4)
+
+
+def test_colours_of_the_vertices(tmp_path):
+    for top in ("1", "255"):
+        face = read(tmp_path, neutral=QUAD.replace(" 0\n", f" 0 {top} 0 0\n"), up=LIFTED)
+        np.testing.assert_allclose(face.colours[:, :3], [[1, 0, 0]] * 4)
