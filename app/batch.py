@@ -164,9 +164,9 @@ def open_rig(path: Path, poses: Sequence[str] = FACEFX) -> Opened:
     return open_face(path, load_presets(resources.retarget_presets()), poses, rig_cache.user_cache())
 
 
-def tell_face(path: Path) -> int:
-    """What a face is made of, and which poses it can make."""
-    opened = open_rig(path)
+def tell_face(path: Path, curves: Path | None = None) -> int:
+    """What a face is made of, and which poses it can make: FaceFX's, or those of a curve set."""
+    opened = open_rig(path, curve_set_json.read(curves).curve_set.poses if curves is not None else FACEFX)
     face, made = opened.face, opened.retarget
     print(f"{shown(face.title, 200)}: {len(face.positions):,} vertices, {len(face.triangles):,} triangles.")
     print(f"{len(face.shapes)} shapes: {', '.join(shown(name) for name in face.shapes)}.")

@@ -164,6 +164,7 @@ def _parser() -> argparse.ArgumentParser:
 
     face = command("face", "say what a face is made of and which poses it can make", "lipstitch face head.glb")
     face.add_argument("path", type=Path, metavar="PATH", help="a .glb, .gltf or .vrm, or a folder of .obj poses")
+    face.add_argument("--curves", type=Path, metavar="FILE", help="the curve set whose poses it shall make")
     face.set_defaults(run=_face)
 
     shot = command(
@@ -234,7 +235,7 @@ def _render(options: argparse.Namespace) -> int:
 def _face(options: argparse.Namespace) -> int:
     from .batch import tell_face
 
-    return tell_face(options.path)
+    return tell_face(options.path, options.curves)
 
 
 def _screenshot(options: argparse.Namespace) -> int:

@@ -22,6 +22,8 @@ from core_pipeline.faces.limits import LARGEST, MAX_FILE
 from core_pipeline.files.json_text import shown
 
 MAX_VALUES = 64 * 2**20
+#: Values in the description: each takes a hundred bytes once it is read.
+MAX_ENTRIES = 2_000_000
 #: What a file may insist on; materials may insist on anything, we take their colour alone.
 KNOWN_EXTENSIONS = frozenset(
     {
@@ -266,6 +268,8 @@ class GltfFile:
             text = self._chunks(raw)
         if text is None:
             raise self.fail("this is not a glTF 2.0 file; export the face as .glb or .gltf.")
+        if sum(text.count(mark) for mark in (b"[", b"{", b",")) > MAX_ENTRIES:
+            raise self.fail(f"its description has more than {MAX_ENTRIES:,} entries; export the head alone.")
         try:
             document = json.loads(text)
         except (ValueError, RecursionError):

@@ -119,7 +119,8 @@ class FaceRenderer:
 
 def _sentence(error: Exception, started: bool) -> str:
     # PyOpenGL's own errors print the whole call; its description says what is wrong.
-    told = getattr(error, "description", None) or str(error)
+    call = getattr(getattr(error, "baseOperation", None), "__name__", "")
+    told = getattr(error, "description", None) or (f"{call}: {getattr(error, 'err', '')}" if call else str(error))
     told = told.decode(errors="replace") if isinstance(told, bytes) else str(told)
     reason = " ".join(told.split())[:200] or type(error).__name__
     if started:

@@ -7,6 +7,7 @@ import pytest
 from PIL import Image
 
 from app.cli import main
+from app.resources import english_curves, face_folder
 from tests.helpers.rigs import NAMES, as_glb, as_objs, head
 
 ARKIT = ["jawOpen", *(name for name in NAMES["arkit52"] if name != "jawOpen")]
@@ -40,6 +41,12 @@ def test_what_is_no_face_is_refused_in_a_sentence(tmp_path, capsys):
     assert error.startswith("lipstitch: ")
     assert "export it as .glb" in error
     assert len(error.splitlines()) == 1
+
+
+def test_the_poses_of_another_curve_set(capsys):
+    crab, curves = face_folder("crab"), english_curves().with_name("crab.json")
+    assert main(["face", str(crab), "--curves", str(curves)]) == 0
+    assert "  mouth open = 1 mouth open" in capsys.readouterr().out.splitlines()
 
 
 def test_a_rig_speaks(tmp_path, capsys):

@@ -45,11 +45,8 @@ def _hairs(character: Character, clay: Solid, lift: float) -> Array:
     py = root_y + STEPS[:, None] * length * np.sin(lean + bend)
     wide = WIDE * np.array([0.7, 1.0, 0.7, 0.0])[:, None]
     across_x, across_y = -np.sin(lean), np.cos(lean)
-    rows = []
-    for i in range(len(STEPS)):
-        for side in (-1, 1) if i < len(STEPS) - 1 else (0,):
-            # counted so that the hair's front looks out of the face
-            sx, sy = px[i] - side * wide[i] * across_x, py[i] - side * wide[i] * across_y
-            rows.append(np.stack([sx, sy, clay.front(sx, sy) + 0.012], -1))
-    points: Array = np.stack(rows, axis=1).reshape(-1, 3)
+    # counted so that the hair's front looks out of the face
+    row, side = np.array([0, 0, 1, 1, 2, 2, 3]), np.array([-1, 1, -1, 1, -1, 1, 0])[:, None]
+    sx, sy = px[row] - side * wide[row] * across_x, py[row] - side * wide[row] * across_y
+    points: Array = np.stack([sx, sy, clay.front(sx, sy) + 0.012], -1).transpose(1, 0, 2).reshape(-1, 3)
     return points

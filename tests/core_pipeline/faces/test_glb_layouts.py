@@ -185,6 +185,11 @@ def test_instances_of_one_mesh_are_counted_before_they_are_read(tmp_path, monkey
     assert "more than 29 parts" in refused(tmp_path, gltf)
 
 
+def test_a_description_of_millions_of_nothings_is_not_read(tmp_path):
+    nothings = b'{"asset": {"version": "2.0"}, "nodes": [' + b"[]," * 2_000_000 + b"{}]}"
+    assert "more than 2,000,000 entries" in refused(tmp_path, nothings)
+
+
 def test_opening_can_be_cancelled(tmp_path):
     (tmp_path / "face.glb").write_bytes(tetrahedron().glb())
     with pytest.raises(UserError, match="cancelled"):

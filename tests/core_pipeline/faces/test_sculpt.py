@@ -46,20 +46,26 @@ def test_building_all_writes_every_folder_and_tells_how_far_it_is(built):
 
 def test_twice_the_same_bytes(built, tmp_path):
     """In another process too: nothing hangs on hashes or on what ran before."""
-    command = [sys.executable, "-m", "core_pipeline.faces.sculpt", str(tmp_path / "there")]
+    command = [sys.executable, "-m", "core_pipeline.faces.sculpt", str(tmp_path), "woman", "toon"]
     ran = subprocess.run(command, capture_output=True, text=True, check=True)
-    assert ran.stdout.splitlines() == [f"[{n}/{len(CHARACTERS)}] {c.title}" for n, c in enumerate(CHARACTERS, 1)]
-    for character in CHARACTERS:
+    assert ran.stdout.splitlines() == ["[1/2] Woman", "[2/2] Toon"]
+    assert {place.name for place in tmp_path.iterdir()} == {"woman", "toon"}
+    for character in ("woman", "toon"):
         for name in ("face.glb", "face.json"):
-            here, there = (side / character.name / name for side in (built[0], tmp_path / "there"))
-            assert here.read_bytes() == there.read_bytes()
+            assert (built[0] / character / name).read_bytes() == (tmp_path / character / name).read_bytes()
+
+
+def test_a_name_that_is_none_of_ours_is_refused(tmp_path, capsys):
+    assert main([str(tmp_path / "new"), "toon", "tune"]) == 2
+    assert "“tune” is none of our characters; choose from toon" in capsys.readouterr().err
+    assert not (tmp_path / "new").exists()
 
 
 def test_a_folder_that_cannot_be_written(tmp_path, capsys):
     (tmp_path / "file").write_text("in the way", "utf-8")
     with pytest.raises(UserError, match="cannot be written"):
-        build_all(tmp_path / "file")
-    assert main([str(tmp_path / "file")]) == 2
+        build_all(tmp_path / "file", names=["toon"])
+    assert main([str(tmp_path / "file"), "toon"]) == 2
     assert "cannot be written" in capsys.readouterr().err
 
 
