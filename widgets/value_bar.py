@@ -9,6 +9,7 @@ from PySide6.QtGui import QFocusEvent, QKeyEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QSizePolicy, QWidget
 
 from . import theme
+from .elided_label import ElidedLabel
 
 
 class ValueField(QLineEdit):
@@ -91,12 +92,7 @@ class ValueBar(QWidget):
             row.addWidget(label)
             row.addWidget(field)
             row.addSpacing(8)
-        self._count = QLabel()
-        self._count.setAccessibleName(self.tr("Selected keys"))
-        self._count.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-        palette = self._count.palette()
-        palette.setColor(palette.ColorRole.WindowText, theme.MUTED)
-        self._count.setPalette(palette)
+        self._count = ElidedLabel()
         row.addWidget(self._count, 1)
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
 
@@ -105,4 +101,4 @@ class ValueBar(QWidget):
         self.time.set_values([t for t, _ in keys])
         self.weight.set_values([v for _, v in keys])
         many = self.tr("{0} keys: *0.5, +0.1 or =.3 act on all").format(len(keys))
-        self._count.setText(many if len(keys) > 1 else "" if keys else self.tr("no key selected"))
+        self._count.set_text(many if len(keys) > 1 else "" if keys else self.tr("no key selected"))

@@ -42,6 +42,7 @@ _TOP = {5120: 127, 5121: 255, 5122: 32767, 5123: 65535, 5125: 2**32 - 1}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 
 Json = dict[str, Any]
+Buffer = bytes | memoryview
 
 
 class GltfFile:
@@ -55,10 +56,10 @@ class GltfFile:
         self._decoded: dict[int, NDArray[Any]] = {}
         self._unpacked: dict[int, bytes] = {}
         raw = _read(path, path.name)
-        self._inline: bytes | None = None
+        self._inline: Buffer | None = None
         self.json = self._parse(raw)
         self._check_version()
-        self._buffers: dict[int, bytes] = {}
+        self._buffers: dict[int, Buffer] = {}
 
     def fail(self, what: str) -> UserError:
         """The error to raise about this file."""
@@ -199,7 +200,7 @@ class GltfFile:
         )
         return rows.astype(dtype)
 
-    def _bytes_of(self, view: Json, index: object) -> tuple[bytes, int]:
+    def _bytes_of(self, view: Json, index: object) -> tuple[Buffer, int]:
         """The bytes a buffer view looks at, decompressed when need be, and where in them it begins."""
         packed = self.part(self.part(view, "extensions"), "EXT_meshopt_compression")
         if packed:
@@ -220,13 +221,13 @@ class GltfFile:
         if count * stride != length or length > MAX_FILE:
             raise self.fail(f"bufferView {index} unpacks {count:,} × {stride} bytes where {length:,} are announced.")
         raw, offset = self._bytes_of({key: value for key, value in packed.items() if key != "extensions"}, None)
-        data = raw[offset : offset + self.whole(packed, "byteLength")]
+        data = bytes(raw[offset : offset + self.whole(packed, "byteLength")])
         try:
             return meshopt.decode(data, count, stride, str(packed.get("mode")), str(packed.get("filter", "NONE")))
         except ValueError as error:
             raise self.fail(f"bufferView {index} is packed with meshopt, but {error}; export the file again.") from None
 
-    def _buffer(self, index: object) -> bytes:
+    def _buffer(self, index: object) -> Buffer:
         entry = self.item("buffers", index)
         assert isinstance(index, int)
         if index not in self._buffers:
@@ -236,7 +237,7 @@ class GltfFile:
             self._buffers[index] = data
         return self._buffers[index]
 
-    def _load(self, entry: Json, index: int) -> bytes:
+    def _load(self, entry: Json, index: int) -> Buffer:
         uri = entry.get("uri")
         if uri is None:
             if index or self._inline is None:
@@ -294,7 +295,7 @@ class GltfFile:
             if kind == b"JSON" and text is None:
                 text = raw[at + 8 : at + 8 + size]
             elif kind == b"BIN\0" and self._inline is None:
-                self._inline = raw[at + 8 : at + 8 + size]
+                self._inline = memoryview(raw)[at + 8 : at + 8 + size]  # half a gigabyte wants no copy
             at += 8 + size
         if text is None:
             raise self.fail("it has no glTF description inside; export the file again.")

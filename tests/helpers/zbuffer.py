@@ -11,6 +11,7 @@ from core_pipeline.faces.face import Face
 
 HALF = 0.62
 SIZE = 220
+DEEPEST = 1.1
 
 
 def deformed(face: Face, weights: Mapping[str, float]) -> np.ndarray:
@@ -30,10 +31,9 @@ def seen(
 ) -> Counter[str]:
     """Pixels of each part in a square window of half width `half` round `centre` (SIZE² pixels)."""
     faces = visible_triangles(face, weights, centre, yaw, pitch, half)
-    names = np.full(len(face.triangles), "", dtype=object)
-    for name, (first, count) in face.parts.items():
-        names[first : first + count] = name
-    return Counter(names[faces[faces >= 0]].tolist())
+    pixels = np.bincount(faces[faces >= 0], minlength=len(face.triangles))
+    shown = {name: int(pixels[first : first + count].sum()) for name, (first, count) in face.parts.items()}
+    return Counter({name: number for name, number in shown.items() if number})
 
 
 def visible_triangles(
@@ -50,7 +50,9 @@ def visible_triangles(
     turn_x = np.array([[1, 0, 0], [0, np.cos(p), -np.sin(p)], [0, np.sin(p), np.cos(p)]])
     local = (deformed(face, weights).astype(float) - centre) @ (turn_x @ turn_y).T
     local[:, :2] = (local[:, :2] / half + 1) * SIZE / 2
-    corners = local[face.triangles]
+    # what lies deeper than any mouth is behind the face, and hidden by it
+    numbers = np.flatnonzero(local[face.triangles, 2].max(1) > -DEEPEST)
+    corners = local[face.triangles[numbers]]
     low = np.ceil(corners[..., :2].min(1) - 0.5).clip(0, SIZE).astype(int)
     high = np.ceil(corners[..., :2].max(1) - 0.5).clip(0, SIZE).astype(int)
     wide, tall = (high - low).T
@@ -61,7 +63,7 @@ def visible_triangles(
     which, pixel = which[inside], (row * SIZE + column)[inside]
     order = np.argsort(depth[inside], kind="stable")
     nearest = np.full(SIZE * SIZE, -1)
-    nearest[pixel[order]] = which[order]
+    nearest[pixel[order]] = numbers[which[order]]
     return nearest.reshape(SIZE, SIZE)
 
 

@@ -68,7 +68,9 @@ def assemble(character: Character, made: list[Piece]) -> Face:
     normals = VertexNormals(triangles, seam_groups(positions))
     rest = normals.of(positions)
     if character.sky:
-        colours = _shaded(character, colours, sky(positions, rest, triangles), triangles, parts)
+        colours = _shaded(
+            character, colours, sky(positions.astype(float), rest.astype(float), triangles), triangles, parts
+        )
     normal_deltas = np.stack([normals.of(positions + delta) - rest for delta in deltas])
     return Face(
         name=character.name,

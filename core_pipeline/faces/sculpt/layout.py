@@ -35,13 +35,14 @@ class Layout:
 
 
 def lay_out(border: Array, eye_rings: list[Array], spacing: Callable[[Array], Array]) -> Layout:
-    """border (k, 2) anticlockwise from the bottom of the mouth, k a multiple of 4; the first eye ring, if any, is the hole.
+    """border (k, 2) anticlockwise from the bottom of the mouth, k a multiple of 4.
 
-    spacing  points (p, 2) → wished distance between vertices there (p,)
+    eye_rings  the first is the hole (empty for none); the others are lines where vertices shall lie
+    spacing    points (p, 2) → wished distance between vertices there (p,)
     """
     half = border[: len(border) // 2 + 1].copy()
     half[[0, -1], 0] = 0.0
-    loop = eye_rings[0] if eye_rings else np.empty((0, 2))
+    loop = eye_rings[0]
     seeds = [half, loop]
     seeds += [ring[(ring[:, 0] > 0.02) | (ring[:, 0] == 0)] for ring in eye_rings[1:]]
     seeds += _lip_rings(half)

@@ -103,7 +103,8 @@ class Skin:
             points = points + pull * (self.layout.neighbour_mean(points) - points)
         depth = 0.06 * self.character.eyes.crease * self.character.eyes.radius * self._crease(points)
         away = points - centre
-        return points - away * (depth / np.linalg.norm(away, axis=1))[:, None]
+        creased: Array = points - away * (depth / np.linalg.norm(away, axis=1))[:, None]
+        return creased
 
     def _crease(self, points: Array) -> Array:
         """(layout points,) 1 in the fold above the upper lid."""
@@ -257,8 +258,9 @@ class Skin:
 
         under = np.exp(-((side / (0.8 * eyes.radius)) ** 2) - (((low + 0.75 * eyes.radius) / (0.3 * eyes.radius)) ** 2))
         toward(linear(palette.lid) * (0.95, 0.92, 1.0), 0.40 * under)
-        wing = np.array(self.character.nose) + (0, -0.03, -0.06)
-        beside = np.exp(-((np.linalg.norm((np.abs(x) - 0.10, y - wing[1], z - wing[2]), axis=0) / 0.06) ** 2))
+        _, nose_y, nose_z = self.character.nose
+        away = np.linalg.norm((np.abs(x) - 0.10, y - nose_y + 0.03, z - nose_z + 0.06), axis=0)
+        beside = np.exp(-((away / 0.06) ** 2))
         toward(linear(palette.blush) * 0.85, 0.30 * beside)
         chin = np.exp(-((x / 0.16) ** 2) - (((y - self.character.mouth.height + 0.30) / 0.12) ** 2))
         toward(linear(palette.blush), 0.16 * chin)

@@ -105,6 +105,10 @@ class _Row:
         depth = self.centre[2] - points[:, 2]
         shade = 1 - 0.85 * smoothstep(0.16, 0.50, depth)
         if is_tooth:
+            # warmer towards the gum, and towards the back
+            warm = 0.16 * np.tile(1 - TOOTH[:, 1].clip(0, 1), len(self.along))
+            warm = warm + 0.14 * np.repeat(np.abs(self.along), len(TOOTH))
+            base = base * (1 - palette.variation * warm[:, None] * np.array([0.35, 0.75, 1.6]))
             shade = shade * (1 - 0.22 * np.repeat(smoothstep(0.8, 1.0, self.from_middle), len(TOOTH)))
         return np.column_stack([base * shade[:, None], np.full(len(points), 0.85 if is_tooth else 0.6)])
 

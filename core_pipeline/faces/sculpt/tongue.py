@@ -18,7 +18,12 @@ def tongue(character: Character, centre: Array) -> Piece:
     depth = centre[2] - rest[:, 2]
     shade = 1 - 0.75 * smoothstep(0.28, 0.62, depth)
     groove = 1 - 0.18 * np.exp(-((rest[:, 0] / 0.03) ** 2))
-    colours = np.column_stack([linear(palette.tongue) * (shade * groove)[:, None], np.full(len(rest), 0.7)])
+    tone = np.tile(linear(palette.tongue), (len(rest), 1))
+    # paler and rougher on top, redder at the edges and the tip
+    grain = np.sin(170 * rest[:, 0] + 40 * rest[:, 2]) * np.sin(150 * rest[:, 2])
+    edge = smoothstep(0.05, 0.19, np.abs(rest[:, 0])) + 0.6 * smoothstep(0.32, 0.22, depth)
+    tone *= 1 + palette.variation * (0.09 * grain[:, None] - 0.30 * edge[:, None] * np.array([0.5, 1.0, 1.0]))
+    colours = np.column_stack([tone * (shade * groove)[:, None], np.full(len(rest), 0.7)])
     poses = {name: _posed(character, pose, centre) for name, pose in character.poses.items()}
     return Piece("tongue", rest, grid(ROWS, SIDES, closed=True), colours, poses)
 

@@ -231,3 +231,9 @@ def test_left_and_right_are_alike():
         right, left = pixels({pose: 1}, (30, 0)), pixels({pose: 1}, (-30, 0))
         for part in INSIDE:
             assert right[part] == pytest.approx(left[part], abs=12 + 0.03 * right[part])
+
+
+@pytest.mark.parametrize("mood", ["smile", "frown", "bare teeth"])
+def test_moods_reach_the_eyes_without_shutting_them(mood):
+    shown = [seen(FACE, {mood: amount}, CRAB.eyes.centre, half=0.4)["eye_right"] for amount in (0, 1)]
+    assert 0.6 * shown[0] < shown[1] < 0.97 * shown[0]

@@ -1,4 +1,4 @@
-"""Every human face's poses mean what they should: who shows teeth, whose lips are sealed, and nothing turns inside out."""
+"""Every human face's poses mean what they should: teeth that show, lips that seal, nothing turned inside out."""
 
 from collections import Counter
 from functools import cache
@@ -20,7 +20,7 @@ STRAY = 2
 
 
 class Subject:
-    """A shipped face, and windows on it in the measure of its own features, so that counts of pixels can be compared."""
+    """A shipped face, and windows on it in the measure of its own features: so pixels can be compared."""
 
     def __init__(self, character):
         self.character, self.face = character, load(f"assets/faces/{character.name}")
