@@ -27,6 +27,7 @@ class Character(QObject):
         self._faces = parts.faces
         self._state = parts.state
         self._poses: tuple[str, ...] = ()
+        self._others: list[Path] = []  # to try, when the present face can make none of a new set's poses
         self._caption = QTimer(self)
         self._caption.setInterval(CAPTION_MS)
         self._caption.timeout.connect(self._show_caption)
@@ -67,10 +68,13 @@ class Character(QObject):
         """The pose set of the curves; the face is matched to it."""
         if poses != self._poses:
             self._poses = poses
-            self.open(self._faces.path)
+            self._others = [folder for folder in resources.characters() if folder != self._faces.path]
+            self.open(self._faces.path, keep=True)
 
-    def open(self, path: Path) -> None:
-        """Show another face as soon as it has been read."""
+    def open(self, path: Path, *, keep: bool = False) -> None:
+        """Show another face as soon as it has been read; `keep`: look for one that can make the set's poses."""
+        if not keep:
+            self._others = []
         self._faces.open(path, self._poses)
         for action in self._group.actions():
             action.setChecked(action.data() == str(path))
@@ -99,6 +103,10 @@ class Character(QObject):
             self.open(Path(name))
 
     def _opened(self, opened: Opened) -> None:
+        if not opened.retarget.poses and self._others:
+            self.open(self._others.pop(0), keep=True)  # perhaps another of ours can make these poses
+            return
+        self._others = []
         self._preview.set_face(opened.face)
         self._window.face_view.set_cutaway(False)
         self._window.face_view.setToolTip("\n".join(opened.notes))

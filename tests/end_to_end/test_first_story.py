@@ -295,3 +295,15 @@ def test_a_file_that_is_no_face_is_told_and_the_face_stays(editor: Editor, qtbot
     assert "wrong.glb" in failed.args[0]
     assert editor.window.hint_label.text() == failed.args[0]
     assert editor.preview.face is before
+
+
+def test_a_set_with_other_poses_brings_the_character_that_can_make_them(editor: Editor, qtbot: QtBot) -> None:
+    qtbot.waitUntil(lambda: editor.preview.face is not None, timeout=20_000)
+    editor.files.open(resources.assets() / "curves" / "crab.json")
+    qtbot.waitUntil(lambda: editor.preview.face is not None and editor.preview.face.name == "crab", timeout=20_000)
+    assert editor.preview.face is not None
+    assert all(editor.preview.face.mix(pose) for pose in editor.document.curve_set.poses)
+    speak(editor, qtbot, "Fat cats.")
+    assert editor.window.canvas.curves
+    editor.document.new(curve_set_json.load(resources.english_curves()))
+    qtbot.waitUntil(lambda: editor.preview.face is not None and editor.preview.face.name == "toon", timeout=20_000)
