@@ -63,6 +63,8 @@ class Solid:
         along = np.full(directions.shape[:-1], start)
         for _ in range(70):
             gap = self.distance(origins + directions * along[..., None])
+            if np.abs(gap).max(initial=0.0) < 1e-11:
+                break
             along = np.maximum(along - np.clip(gap, -0.3, 0.3) * 0.75, 0.0)
         hit: Array = origins + directions * along[..., None]
         return hit
