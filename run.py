@@ -101,7 +101,10 @@ def install_system_libraries() -> None:
     command = ["apt-get", "install", "-y", "--no-install-recommends", *packages]
     if prefix is None:
         if must:
-            print(f"System libraries are missing. Run this, then start again:\n  sudo {' '.join(command)}", file=sys.stderr)
+            print(
+                f"System libraries are missing. Run this, then start again:\n  sudo {' '.join(command)}",
+                file=sys.stderr,
+            )
             raise SystemExit(2)
         return
     print(f"Installing system libraries: {' '.join(packages)}", flush=True)
