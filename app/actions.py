@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtGui import QAction, QKeySequence, QUndoStack
+from PySide6.QtGui import QAction, QActionGroup, QKeySequence, QUndoStack
 from PySide6.QtWidgets import QMainWindow
 
 from widgets import theme
@@ -47,6 +47,10 @@ class Actions:
         )
         self.safe_colours.setCheckable(True)
         self.default_layout = self._action(tr("Reset &Layout"), None, tr("Put all docks back in their places"))
+        self.keymaps = QActionGroup(window)
+        for name, title in (("neutral", tr("&Neutral")), ("Maya", tr("Like &Maya")), ("Blender", tr("Like &Blender"))):
+            keymap = QAction(title, self.keymaps, checkable=True, checked=name == "neutral")
+            keymap.setData(name)
         self.open_face = self._action(tr("Open &Face…"), "Ctrl+Shift+O", tr("Show a .glb, .gltf or .vrm of yours"))
         self.open_face_folder = self._action(tr("Open Face Fol&der…"), None, tr("Show a folder of .obj poses"))
         self.about = self._action(tr("&About Lipstitch"), None, "")
@@ -77,5 +81,6 @@ class Actions:
             for action in actions:
                 menu.addSeparator() if action is None else menu.addAction(action)
         self.view_menu = menu
+        menu.addMenu(tr("Canvas &Keys")).addActions(self.keymaps.actions())
         self.characters_menu = menu.addMenu(tr("&Character"))
         bar.addMenu(tr("&Help")).addAction(self.about)

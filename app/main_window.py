@@ -23,6 +23,7 @@ from widgets.bigram_picker import BigramPicker
 from widgets.bigram_transport import BigramTransport
 from widgets.canvas_header import CanvasHeader
 from widgets.curve_canvas import CurveCanvas
+from widgets.curve_panel import CurvePanel
 from widgets.face_view import FaceView
 from widgets.pose_list import PoseList
 from widgets.sentence_bar import SentenceBar
@@ -67,6 +68,7 @@ class MainWindow(QMainWindow):
         self.bigram_transport = BigramTransport()
         self.pose_list = PoseList()
         self.canvas = CurveCanvas()
+        self.curve_panel = CurvePanel(self.canvas)
         self.face_view = FaceView()
         self.weights = WeightsBars()
         self.settings_panel = SettingsPanel()
@@ -168,7 +170,7 @@ class MainWindow(QMainWindow):
         body = QSplitter(Qt.Orientation.Horizontal)
         body.setHandleWidth(3)
         body.addWidget(self.pose_list)
-        body.addWidget(self.canvas)
+        body.addWidget(self.curve_panel)
         body.setStretchFactor(0, 0)
         body.setStretchFactor(1, 1)
         body.setChildrenCollapsible(False)

@@ -40,6 +40,9 @@ class OpenBigram(QObject):
         w.pose_list.pose_picked.connect(self.activate_pose)
         w.pose_list.visibility_changed.connect(self._visibility_changed)
         w.pose_list.lock_changed.connect(self._lock_changed)
+        for view in (w.pose_list, w.canvas):
+            view.solo_wanted.connect(w.pose_list.set_solo)
+            view.solo_wanted.connect(w.canvas.set_solo)
         w.stage_panel.pose_activated.connect(self.activate_pose)
         w.stage_panel.bigram_picked.connect(self._open_from_overlay)
         w.picker.picked.connect(self.open)

@@ -110,6 +110,7 @@ class Wiring(QObject):
         ):
             action.triggered.connect(lambda _=False, act=act: act())
         a.loop.toggled.connect(self.sentence.set_loop)
+        a.keymaps.triggered.connect(lambda action: w.canvas.set_keymap(action.data()))
         a.safe_colours.toggled.connect(w.stage_panel.set_palette_safe)
         w.play_wanted.connect(self._preview.toggle_sentence)
         w.dropped.connect(self._open_dropped)
@@ -261,6 +262,9 @@ class Wiring(QObject):
         state, w = self._state, self._window
         w.restore_layout(state.layout("geometry"), state.layout("docks"))
         w.actions_.safe_colours.setChecked(state.flag("safe colours", False))
+        for action in w.actions_.keymaps.actions():
+            if action.data() == state.text("keymap", "neutral"):
+                action.trigger()
         self.character.restore()
         self.sentence.set_loop(state.flag("loop", True))
         w.transport.set_speed(state.number("speed", 1.0))
@@ -273,6 +277,8 @@ class Wiring(QObject):
         state.put("geometry", w.saveGeometry())
         state.put("docks", w.saveState())
         state.put("sentence", w.sentence_bar.sentence)
+        keymap = w.actions_.keymaps.checkedAction()
+        state.put("keymap", keymap.data() if keymap is not None else "neutral")
         state.put("safe colours", w.actions_.safe_colours.isChecked())
         state.put("loop", player.looping)
         state.put("speed", player.speed)

@@ -302,7 +302,7 @@ class Skin:
         lip[..., :3] += inner[..., None] * (linear(palette.inner_lip) - lip[..., :3])
         lip[..., 3] += (0.55 - 0.35) * outer
         # lips are darker where they meet, and finely lined
-        lined = 0.07 * np.sin(2.7 * np.arange(columns)) + 0.28 * smoothstep(0.45, 0.0, v)
+        lined = 0.04 * np.sin(2.7 * np.arange(columns)) + 0.28 * smoothstep(0.45, 0.0, v)
         lip[..., :3] *= 1 - palette.variation * (outer * lined)[..., None]
         depth = np.linspace(1, 0.1, BAG_RINGS)[:, None, None]
         lattice[:BAG_RINGS, :, :3] = linear(palette.throat) * depth + linear(palette.inner_lip) * 0.7 * (1 - depth)

@@ -19,17 +19,17 @@ from core_pipeline.faces.sculpt.sdf import Blob
 
 CLAY = (
     Blob((0, 0.40, -0.12), (0.74, 0.74, 0.88), 0.1),  # cranium
-    Blob((0, -0.26, 0.16), (0.50, 0.54, 0.60), 0.28),  # jaw
+    Blob((0, -0.24, 0.16), (0.54, 0.53, 0.60), 0.28),  # jaw
     Blob((0.34, -0.07, 0.44), (0.24, 0.19, 0.26), 0.20, mirrored=True),  # cheekbones
-    Blob((0.27, -0.33, 0.42), (0.22, 0.22, 0.24), 0.20, mirrored=True),  # cheeks
-    Blob((0.19, -0.54, 0.30), (0.20, 0.18, 0.26), 0.26, mirrored=True),  # corners of the jaw
+    Blob((0.29, -0.30, 0.43), (0.24, 0.23, 0.25), 0.20, mirrored=True),  # cheeks
+    Blob((0.21, -0.50, 0.30), (0.20, 0.18, 0.26), 0.26, mirrored=True),  # corners of the jaw
     Blob((0, -0.42, 0.55), (0.27, 0.24, 0.26), 0.20),  # the round under nose and lips
-    Blob((0, -0.73, 0.585), (0.14, 0.14, 0.17), 0.24),  # chin
+    Blob((0, -0.69, 0.585), (0.16, 0.13, 0.17), 0.24),  # chin
     Blob((0.26, 0.37, 0.58), (0.22, 0.06, 0.10), 0.14, mirrored=True),  # brow
     Blob((0.31, 0.16, 0.87), (0.16, 0.12, 0.16), 0.12, mirrored=True, carve=True),  # eye sockets
-    Blob((0, 0.08, 0.755), (0.050, 0.28, 0.10), 0.14),  # bridge of the nose
-    Blob((0, -0.13, 0.895), (0.062, 0.060, 0.080), 0.10),  # tip of the nose
-    Blob((0.070, -0.165, 0.82), (0.046, 0.044, 0.064), 0.07, mirrored=True),  # its wings
+    Blob((0, 0.08, 0.735), (0.048, 0.27, 0.10), 0.14),  # bridge of the nose
+    Blob((0, -0.105, 0.885), (0.066, 0.058, 0.075), 0.09),  # tip of the nose
+    Blob((0.068, -0.145, 0.81), (0.044, 0.042, 0.062), 0.07, mirrored=True),  # its wings
     Blob((0, -0.28, 0.86), (0.018, 0.06, 0.05), 0.05, carve=True),  # the groove above the lip
 )
 
@@ -63,18 +63,18 @@ WOMAN = Character(
     hair=HAIR,
     rest_tongue=REST,
     mouth=Mouth(
-        height=-0.44, half_width=0.25, smile=0.035, upper=0.042, lower=0.060, upper_depth=0.024, lower_depth=0.032,
-        lap=0.03, bow=1.5, rim=0.013, hinge=(0.0, -0.12, -0.08), bag=(0.32, 0.20, 0.55),
+        height=-0.44, half_width=0.255, smile=0.045, upper=0.046, lower=0.066, upper_depth=0.025, lower_depth=0.032,
+        lap=0.03, bow=1.5, rim=0.015, hinge=(0.0, -0.12, -0.08), bag=(0.32, 0.20, 0.55),
     ),
     teeth=Dentition(half_width=0.245, depth=0.36, behind_lips=0.08, edge=-0.022, upper_height=0.115, lower_height=0.10),
     eyes=Eyes(
-        centre=(0.295, 0.17, 0.525), radius=0.22, half_width=0.88, upper=0.47, lower=0.33, slant=0.05, yaw=10,
+        centre=(0.30, 0.165, 0.50), radius=0.235, half_width=0.86, upper=0.50, lower=0.36, slant=0.01, yaw=10,
         skew=(-0.06, 0.12), iris=29, pupil=11.5, spread=1.0, ease=1.0, shut=0.16, iris_colour=(0.30, 0.46, 0.24),
         crease=0.8, lashes=22, lash_length=0.19,
     ),
     brows=Brows(
-        line=((0.11, 0.262, 0.016), (0.20, 0.285, 0.024), (0.31, 0.305, 0.022), (0.41, 0.29, 0.015), (0.49, 0.235,
-        0.006)),
+        line=((0.12, 0.275, 0.016), (0.20, 0.315, 0.023), (0.31, 0.345, 0.021),
+              (0.42, 0.32, 0.014), (0.51, 0.255, 0.006)),
         lift=0.06,
     ),
     ears=None,
@@ -86,8 +86,8 @@ WOMAN = Character(
     ),
     camera=Camera(target=(0.0, -0.05, 0.0), distance=6.9, yaw=0.0, pitch=0.0, fov=24.0),
     middle=(0.0, -0.34, 0.0),
-    nose=(0.0, -0.14, 0.90),
-    nostrils=(0.040, -0.20, 0.885),
+    nose=(0.0, -0.12, 0.89),
+    nostrils=(0.038, -0.178, 0.875),
     lip_columns=64,
     density=1.12,
     sky=0.75,
