@@ -98,7 +98,7 @@ class SettingsPanel(QWidget):
     def _lay_out(self) -> None:
         inner = QWidget()
         self._column = QVBoxLayout(inner)
-        self._column.setContentsMargins(10, 10, 10, 10)
+        self._column.setContentsMargins(7, 10, 7, 10)
         self._column.setSpacing(5)
         self._note = self._text(theme.WEAK.name())
         self._idle = self._text(theme.MUTED.name())
