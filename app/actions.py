@@ -46,6 +46,9 @@ class Actions:
             tr("&Colours Safe for Every Eye"), None, tr("Stage colours that remain apart without full colour vision")
         )
         self.safe_colours.setCheckable(True)
+        self.lively = self._action(tr("&Blink"), None, tr("Quiet life of the face beside the speech"))
+        self.lively.setCheckable(True)
+        self.lively.setChecked(True)
         self.default_layout = self._action(tr("Reset &Layout"), None, tr("Put all docks back in their places"))
         self.keymaps = QActionGroup(window)
         for name, title in (("neutral", tr("&Neutral")), ("Maya", tr("Like &Maya")), ("Blender", tr("Like &Blender"))):
@@ -74,7 +77,7 @@ class Actions:
             (tr("&Edit"), [self.undo, self.redo]),
             (tr("&Bigram"), [self.find, self.play_bigram]),
             (tr("&Playback"), [self.sentence, self.play, self.to_start, self.loop]),
-            (tr("&View"), [self.reset_view, self.safe_colours, self.default_layout]),
+            (tr("&View"), [self.reset_view, self.safe_colours, self.lively, self.default_layout]),
         ]  # fmt: skip
         for title, actions in entries:
             menu = bar.addMenu(title)

@@ -48,6 +48,7 @@ class Character(QObject):
         view.reset_wanted.connect(preview.reset_view)
         view.cutaway_wanted.connect(preview.cut_away)
         view.cutaway_wanted.connect(view.set_cutaway)
+        self._window.actions_.lively.toggled.connect(preview.set_lively)
         view.retry_wanted.connect(preview.worker.retry)
         view.resized.connect(preview.resize)
 
@@ -81,6 +82,7 @@ class Character(QObject):
 
     def restore(self) -> None:
         """Last time's face, if it is still there."""
+        self._window.actions_.lively.setChecked(self._state.flag("lively", True))
         path = Path(self._state.text("face") or resources.face_folder())
         if path.exists() and path != self._faces.path:
             self.open(path)
@@ -88,6 +90,7 @@ class Character(QObject):
     def remember(self) -> None:
         """Keep this time's face, and stop what this object runs."""
         self._state.put("face", str(self._faces.path))
+        self._state.put("lively", self._window.actions_.lively.isChecked())
         self._caption.stop()
 
     def _ask_file(self) -> None:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtGui import QImage
 
+from core_pipeline.faces import idle
 from core_pipeline.faces.face import Face
 from core_pipeline.faces.view import View
 from core_pipeline.phonemes import Pair
@@ -21,6 +22,8 @@ from .session import Session
 
 #: A bigram plays over this long by default, in seconds (two phones of average length).
 BIGRAM_SECONDS = 0.4
+#: Seconds between the pictures of a blink when nothing else moves.
+BLINK_FRAME = 0.033
 #: From the side, in degrees: there the open half shows the tongue.
 CUTAWAY_YAW = 65.0
 #: While a key is dragged the face is drawn this often: software OpenGL takes every core, and the hand comes first.
@@ -64,6 +67,11 @@ class Preview(QObject):
         self._turn = QTimer(self)  # many causes in one turn of the event loop, one picture
         self._turn.setSingleShot(True)
         self._turn.timeout.connect(self._show)
+        self._lively = True
+        self._clock = time.monotonic
+        self._life = QTimer(self)  # wakes a face at rest for its next blink
+        self._life.setSingleShot(True)
+        self._life.timeout.connect(self.refresh)
         self._asked = 0.0  # when the face was last asked for, on the monotonic clock
         session.stages_changed.connect(self.refresh)
         self.player.time_changed.connect(self._sentence_time)
@@ -77,6 +85,7 @@ class Preview(QObject):
 
     def stop(self) -> None:
         """Stop playing and drawing; waits for the thread."""
+        self._life.stop()
         self.player.pause()
         self.bigram_player.pause()
         self.output.close()
@@ -156,6 +165,11 @@ class Preview(QObject):
         self.show_sentence()
         self.player.seek(seconds)
 
+    def set_lively(self, on: bool) -> None:
+        """Blink and move the brows a little, or keep still."""
+        self._lively = on
+        self.refresh()
+
     # ── camera ───────────────────────────────────────────────────────────────────────────────────
 
     def orbit(self, dx: float, dy: float) -> None:
@@ -232,7 +246,22 @@ class Preview(QObject):
         poses = self._session.curve_set.poses
         if self._matrix is None or self._matrix.shape[0] != len(poses):
             self._matrix = self._face.retarget(poses)
-        self.worker.request(weights.astype(np.float32) @ self._matrix, self._view, self._size, seconds)
+        amounts = weights.astype(np.float32) @ self._matrix
+        self._live(amounts)
+        self.worker.request(amounts, self._view, self._size, seconds)
+
+    def _live(self, amounts: NDArray[np.float32]) -> None:
+        """Add what the face does by itself, and wake up again when there is more of it."""
+        if not self._lively or self._face is None:
+            return
+        now = self._clock()
+        playing = self.player.playing or self.bigram_player.playing
+        for shape, amount in (("blink", idle.blink(now)), ("browUp", idle.brow(now) if playing else 0.0)):
+            if shape in self._face.shapes:
+                place = self._face.shapes.index(shape)
+                amounts[place] = max(amounts[place], amount)
+        wait = BLINK_FRAME if idle.blink(now + BLINK_FRAME) else idle.next_blink(now) - now
+        self._life.start(max(1, round(wait * 1000)))
 
     def _frame(self, image: QImage, _seconds: float, milliseconds: float) -> None:
         self._ms = [*self._ms[-29:], milliseconds]

@@ -53,31 +53,42 @@ def visible_triangles(
     # what lies deeper than any mouth is behind the face, and hidden by it
     numbers = np.flatnonzero(local[face.triangles, 2].max(1) > -DEEPEST)
     corners = local[face.triangles[numbers]]
-    low = np.ceil(corners[..., :2].min(1) - 0.5).clip(0, SIZE).astype(int)
-    high = np.ceil(corners[..., :2].max(1) - 0.5).clip(0, SIZE).astype(int)
-    wide, tall = (high - low).T
-    which = np.repeat(np.arange(len(corners)), wide * tall)
-    step = np.arange(len(which)) - np.repeat(np.cumsum(wide * tall) - wide * tall, wide * tall)
-    column, row = low[which, 0] + step % wide[which], low[which, 1] + step // wide[which]
-    depth, inside = _depth(corners, which, column + 0.5, row + 0.5)
-    which, pixel = which[inside], (row * SIZE + column)[inside]
-    order = np.argsort(depth[inside], kind="stable")
+    which, pixel, depth = _covered(corners)
+    order = np.argsort(depth, kind="stable")
     nearest = np.full(SIZE * SIZE, -1)
     nearest[pixel[order]] = numbers[which[order]]
     return nearest.reshape(SIZE, SIZE)
 
 
-def _depth(corners: np.ndarray, which: np.ndarray, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Depth at (x, y) on the planes of the triangles `which`, and whether it is inside them."""
-    (ax, ay, az), (bx, by, bz), (cx, cy, cz) = (corners[:, i].T for i in range(3))
-    area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+def _covered(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Row by row, the pixels whose middles lie in each triangle: its number, the pixel, the depth there.
+
+    An edge is cut at the same place for both its triangles, so that no pixel falls between them.
+    """
+    upwards = np.take_along_axis(corners, np.argsort(corners[..., 1], axis=1, kind="stable")[..., None], axis=1)
+    (x0, y0, z0), (x1, y1, z1), (x2, y2, z2) = (upwards[:, i].T for i in range(3))
+    bottom, top = (np.ceil(y - 0.5).clip(0, SIZE).astype(int) for y in (y0, y2))
+    which, step = _repeated(top - bottom)
+    row = bottom[which] + step
+    y = row + 0.5
     with np.errstate(invalid="ignore", divide="ignore"):
-        # v and w, the shares of b and c, and the depth are linear in x and y
-        vx, vy = (cy - ay) / area, (ax - cx) / area
-        wx, wy = (ay - by) / area, (bx - ax) / area
-        zx, zy = vx * (bz - az) + wx * (cz - az), vy * (bz - az) + wy * (cz - az)
-        dx, dy = x - ax[which], y - ay[which]
-        v = vx[which] * dx + vy[which] * dy
-        w = wx[which] * dx + wy[which] * dy
-        inside = (v >= 0) & (w >= 0) & (v + w <= 1)
-        return az[which] + zx[which] * dx + zy[which] * dy, inside
+        long, first, second = (x2 - x0) / (y2 - y0), (x1 - x0) / (y1 - y0), (x2 - x1) / (y2 - y1)
+        area = (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)
+        across = ((z1 - z0) * (y2 - y0) - (z2 - z0) * (y1 - y0)) / area
+        along = ((z2 - z0) * (x1 - x0) - (z1 - z0) * (x2 - x0)) / area
+        beyond = y >= y1[which]
+        cut = x0[which] + (y - y0[which]) * long[which]
+        other = np.where(
+            beyond, x1[which] + (y - y1[which]) * second[which], x0[which] + (y - y0[which]) * first[which]
+        )
+        start, stop = (np.ceil(f(cut, other) - 0.5).clip(0, SIZE).astype(int) for f in (np.minimum, np.maximum))
+        span, step = _repeated(stop - start)
+        column = start[span] + step
+        edge = z0[which] + along[which] * (y - y0[which]) + across[which] * (0.5 - x0[which])
+        return which[span], (row * SIZE)[span] + column, edge[span] + across[which][span] * column
+
+
+def _repeated(times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Each index so many times, and the count within each."""
+    index = np.repeat(np.arange(len(times)), times)
+    return index, np.arange(len(index)) - np.repeat(np.cumsum(times) - times, times)

@@ -83,7 +83,7 @@ HAIR = Hair(
         (0, 69), (25, 70), (45, 73), (60, 84), (72, 93), (82, 94), (92, 92), (104, 96), (118, 106), (140, 114), (180,
         116),
     ),
-    front=0.03, top=0.05, back=0.05, quiff=0.0, resolution=(64, 10),
+    front=0.03, top=0.05, back=0.05, quiff=0.0, resolution=(64, 10), gloss=0.36,
     sheets=(
         Sheet(  # all of it, combed back
             guides=_swept(

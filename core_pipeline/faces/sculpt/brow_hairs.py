@@ -40,6 +40,7 @@ def _hairs(character: Character, clay: Solid, lift: float) -> Array:
     lean = np.radians(30 * (1 - u) ** 2 + 40 * np.exp(-u / 0.05) - 12 * u - 24 * level) + 0.8 * np.arctan(slope)
     length = (0.046 + 0.026 * np.sin(np.pi * u)) * (0.7 + 0.6 * ((number * 0.754878) % 1))
     root_y = y + level * 0.72 * half + character.eyes.centre[1] + lift
+    length = length * (1 - 0.5 * smoothstep(0.75, 1.0, u))
     bend = -0.25 * level * STEPS[:, None]
     px = x + STEPS[:, None] * length * np.cos(lean + bend)
     py = root_y + STEPS[:, None] * length * np.sin(lean + bend)

@@ -203,6 +203,7 @@ class Hair:
     twist: float = 1.2
     locks: tuple[Lock, ...] = ()
     sheets: tuple[Sheet, ...] = ()
+    gloss: float = 0.45
     resolution: tuple[int, int] = (76, 15)
 
 

@@ -46,7 +46,7 @@ def hair(character: Character, clay: Solid) -> Piece:
     light = np.concatenate([tint for _, _, tint in parts])[:, None]
     palette = character.palette
     tone = linear(palette.hair) + light * (linear(palette.hair_light) - linear(palette.hair))
-    colours = np.column_stack([np.clip(tone, 0, 1), np.full(len(positions), 0.45)])
+    colours = np.column_stack([np.clip(tone, 0, 1), np.full(len(positions), character.hair.gloss)])
     return Piece("hair", positions, np.concatenate(triangles), colours)
 
 

@@ -14,7 +14,7 @@ from tests.helpers.zbuffer import deformed, seen, visible_triangles
 
 INSIDE = ("teeth_upper", "teeth_lower", "gums_upper", "gums_lower", "tongue", "mouth")
 OUTSIDE = {"skin", "neck", "lips", "hair"}
-VIEWS = ((0, 0), (35, 0), (0, 15), (0, -15))
+VIEWS = ((0, 0), (35, 0), (-35, 0), (0, 15), (0, -15))
 # one pixel in 220 × 220 may fall between two triangles
 STRAY = 2
 
@@ -82,7 +82,7 @@ def test_sealing_is_no_accident(human):
 @pytest.mark.parametrize("tuck", [0.65, 0.8, 1.0])
 @pytest.mark.parametrize("wide", [0.0, 0.3])
 def test_fv_shows_upper_teeth_and_no_lower_ones(human, tuck, wide):
-    for view in ((0, 0), (35, 0)):
+    for view in ((0, 0), (35, 0), (-35, 0)):
         counts = human.pixels({"FV": tuck, "wide": wide}, view)
         assert counts["teeth_upper"] > 80
         assert counts["teeth_lower"] == counts["tongue"] == 0
@@ -114,7 +114,7 @@ def test_w_is_a_small_round_hole_without_teeth(human):
     assert hole.sum() > 150
     assert 0.8 < width / height < 1.25
     assert hole.sum() / (width * height) > 0.7
-    for view in ((0, 0), (35, 0)):
+    for view in ((0, 0), (35, 0), (-35, 0)):
         counts = human.pixels({"W": 1}, view)
         assert counts["teeth_upper"] + counts["teeth_lower"] + counts["tongue"] == 0
 
