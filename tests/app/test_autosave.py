@@ -88,6 +88,7 @@ def test_a_copy_comes_even_while_edits_go_on(document: Document, autosave: Autos
     timer.start(50)
     with qtbot.waitSignal(autosave.saved, timeout=WITHIN):
         go_on()
+    timer.stop()
     assert document.undo_stack.count() > 5
 
 
