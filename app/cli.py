@@ -6,17 +6,18 @@ import argparse
 import ctypes
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
+from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
-from typing import NoReturn
 
 from core_pipeline.errors import UserError
 from core_pipeline.files.atomic import reason
 from core_pipeline.files.json_text import shown
-from core_pipeline.settings import PRESETS, SPLINES
 
-COMMANDS = ("edit", "bake", "check", "render", "face", "screenshot")
+from .parser import make_parser
+
+Command = Callable[[argparse.Namespace], int]
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -27,10 +28,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
             stream.reconfigure(errors="backslashreplace")
     try:
         refuse_name_clash()
-        options = _parser().parse_args(
+        options = make_parser().parse_args(
             arguments if arguments[:1] and _is_command(arguments[0]) else ["edit", *arguments]
         )
-        code: int = options.run(options)
+        code = COMMANDS[options.command](options)
         if sys.stdout is not None:
             sys.stdout.flush()
     except UserError as error:
@@ -60,13 +61,6 @@ def _drop_output() -> None:
     """What is still buffered cannot be written; Python would try once more when it ends, and complain."""
     if sys.stdout is not None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-
-
-class _Parser(argparse.ArgumentParser):
-    """Says what is wrong in one sentence, without the whole usage."""
-
-    def error(self, message: str) -> NoReturn:
-        raise UserError(f"{message} (see {self.prog} --help)")
 
 
 def refuse_name_clash() -> None:
@@ -106,107 +100,10 @@ def _is_command(word: str) -> bool:
     return word in COMMANDS or word in ("-h", "--help", "--version")
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = _Parser(
-        prog="lipstitch",
-        usage="lipstitch [FILE] [--sentence TEXT]\n       lipstitch COMMAND …     (lipstitch COMMAND --help says more)",
-        description="An editor for phone-bigram lip sync. Without a command the editor opens.",
-        epilog='Example: lipstitch bake "Fat cats often find fish" --out weights.json',
-    )
-    parser.add_argument("--version", action="version", version=f"lipstitch {_version()}")
-    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True, prog="lipstitch")
-
-    def command(name: str, purpose: str, example: str) -> argparse.ArgumentParser:
-        return commands.add_parser(
-            name, help=purpose, description=f"{purpose[0].upper()}{purpose[1:]}.", epilog=f"Example: {example}"
-        )
-
-    edit = command("edit", "open the editor, as without a command", "lipstitch edit my-curves.json")
-    edit.add_argument("file", nargs="?", type=Path, metavar="FILE", help="a curve set to open")
-    edit.add_argument("--sentence", metavar="TEXT", help="what to type first")
-    edit.set_defaults(run=_edit)
-
-    bake = command(
-        "bake",
-        "turn a sentence or a schedule into weights per frame",
-        'lipstitch bake "Fat cats often find fish" --out weights.json',
-    )
-    _speech_options(bake, text_optional=True)
-    bake.add_argument("--schedule", type=Path, metavar="FILE", help="phones and times as JSON, instead of a text")
-    bake.add_argument("--out", type=Path, metavar="FILE", help="weights, .json or .csv")
-    bake.add_argument("--stages", type=Path, metavar="FILE", help="all five stages, .json")
-    bake.add_argument("--schedule-out", type=Path, metavar="FILE", help="the schedule that was used, .json")
-    bake.add_argument("--sound", type=Path, metavar="FILE", help="the sound of the sentence, .wav")
-    bake.add_argument("--spline", choices=SPLINES, help="final spline (default: the curve set's own)")
-    bake.add_argument("--fps", type=float, default=60, metavar="N", help="frames per second, 1 to 1000 (default 60)")
-    bake.add_argument("--no-snap", action="store_true", help="do not put each peak on its nearest frame")
-    bake.set_defaults(run=_bake)
-
-    check = command(
-        "check",
-        "validate a curve set: exit code 0 when it is good, 1 with a line per problem",
-        "lipstitch check my-curves.json",
-    )
-    check.add_argument("file", type=Path, metavar="FILE", help="a curve set, .json")
-    check.set_defaults(run=_check)
-
-    render = command(
-        "render", "draw the face saying a sentence, frame by frame", 'lipstitch render "Hello there" --out frames'
-    )
-    _speech_options(render)
-    render.add_argument(
-        "--out", type=Path, required=True, metavar="FOLDER", help="folder for the PNG frames and the sound"
-    )
-    render.add_argument("--fps", type=float, default=30, metavar="N", help="frames per second, 1 to 240 (default 30)")
-    render.add_argument("--size", type=_size, default=(512, 512), metavar="WxH", help="pixels (default 512x512)")
-    render.add_argument("--face", type=Path, metavar="PATH", help="a .glb, .gltf or .vrm, or a folder of .obj poses")
-    render.set_defaults(run=_render)
-
-    face = command("face", "say what a face is made of and which poses it can make", "lipstitch face head.glb")
-    face.add_argument("path", type=Path, metavar="PATH", help="a .glb, .gltf or .vrm, or a folder of .obj poses")
-    face.add_argument("--curves", type=Path, metavar="FILE", help="the curve set whose poses it shall make")
-    face.set_defaults(run=_face)
-
-    shot = command(
-        "screenshot",
-        "draw the editor's window off screen, in mid-sentence",
-        'lipstitch screenshot "Hello there" --out window.png',
-    )
-    _speech_options(shot)
-    shot.add_argument("--out", type=Path, required=True, metavar="FILE", help="the picture, .png")
-    shot.add_argument("--size", type=_size, default=(1600, 1000), metavar="WxH", help="pixels (default 1600x1000)")
-    shot.set_defaults(run=_screenshot)
-    return parser
-
-
-def _speech_options(parser: argparse.ArgumentParser, *, text_optional: bool = False) -> None:
-    parser.add_argument("text", metavar="TEXT", nargs="?" if text_optional else None, help="what to say")
-    parser.add_argument("--curves", type=Path, metavar="FILE", help="curve set (default: our English set)")
-    parser.add_argument("--preset", choices=tuple(PRESETS), help="pipeline settings (default: the curve set's own)")
-    parser.add_argument("--voice", metavar="NAME", default="en-us", help="espeak-ng voice (default en-us)")
-
-
-def _size(text: str) -> tuple[int, int]:
-    """ "1600x1000" → (1600, 1000)."""
-    width, _, height = text.lower().partition("x")
-    if not (width.isdigit() and height.isdigit() and 64 <= int(width) <= 8192 and 64 <= int(height) <= 8192):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a size such as 1600x1000 (64 to 8192 each)")
-    return int(width), int(height)
-
-
-def _version() -> str:
-    from importlib.metadata import PackageNotFoundError, version
-
-    try:
-        return version("lipstitch")
-    except PackageNotFoundError:
-        return "(not installed)"
-
-
 def _edit(options: argparse.Namespace) -> int:
     if not has_display():
         from . import resources
-        from .batch import demo
+        from .demo import demo
 
         return demo(options.sentence or resources.DEMO_SENTENCE, options.file)
     from .editor import run_editor
@@ -214,32 +111,31 @@ def _edit(options: argparse.Namespace) -> int:
     return run_editor(options.file, options.sentence)
 
 
-def _bake(options: argparse.Namespace) -> int:
-    from .batch import bake
-
-    return bake(options)
-
-
-def _check(options: argparse.Namespace) -> int:
-    from .batch import check
-
-    return check(options.file)
-
-
-def _render(options: argparse.Namespace) -> int:
-    from .batch import render
-
-    return render(options)
-
-
-def _face(options: argparse.Namespace) -> int:
-    from .batch import tell_face
-
-    return tell_face(options.path, options.curves)
-
-
 def _screenshot(options: argparse.Namespace) -> int:
-    from .batch import load_curves
     from .screenshot import screenshot
+    from .steps import load_curves
 
     return screenshot(options.text, load_curves(options), options.out, options.size, options.voice)
+
+
+def _in(module: str, function: str) -> Command:
+    """The command at `function` of a module of ours, which is loaded only when it is asked for."""
+
+    def run(options: argparse.Namespace) -> int:
+        code: int = getattr(import_module(f".{module}", __package__), function)(options)
+        return code
+
+    return run
+
+
+COMMANDS: Mapping[str, Command] = {
+    "edit": _edit,
+    "bake": _in("batch", "bake"),
+    "check": _in("batch", "check"),
+    "render": _in("clips", "render"),
+    "face": _in("rigs", "tell_face"),
+    "contact-sheet": _in("contact_sheet", "contact_sheet"),
+    "screenshot": _screenshot,
+    "build-faces": _in("build", "build_faces"),
+    "build-curves": _in("build", "build_curves"),
+}

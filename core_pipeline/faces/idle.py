@@ -7,6 +7,9 @@ clip rendered twice is the same clip.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+
+from .face import Floats
 
 #: Seconds; one blink in each.
 SLOT = 4.2
@@ -14,6 +17,14 @@ SLOT = 4.2
 FALL, SHUT, RISE = 0.07, 0.03, 0.15
 LENGTH = FALL + SHUT + RISE
 _BROW = 0.14
+
+
+def enliven(amounts: Floats, shapes: Sequence[str], time: float, speaking: bool) -> None:
+    """Add blink and brows at `time` to amounts (k,) of the shapes, in place, where the face has such shapes."""
+    for shape, amount in (("blink", blink(time)), ("browUp", brow(time) if speaking else 0.0)):
+        if shape in shapes:
+            place = shapes.index(shape)
+            amounts[place] = max(amounts[place], amount)
 
 
 def blink(time: float) -> float:
