@@ -108,14 +108,17 @@ def _edit(options: argparse.Namespace) -> int:
         return demo(options.sentence or resources.DEMO_SENTENCE, options.file)
     from .editor import run_editor
 
-    return run_editor(options.file, options.sentence)
+    return run_editor(options.file, options.sentence, options.face)
 
 
 def _screenshot(options: argparse.Namespace) -> int:
+    from .rigs import curves_of, face_path
     from .screenshot import screenshot
     from .steps import load_curves
 
-    return screenshot(options.text, load_curves(options), options.out, options.size, options.voice)
+    face = face_path(options.face)
+    curve_set = load_curves(options, curves_of(face))
+    return screenshot(options.text, curve_set, options.out, options.size, options.voice, face)
 
 
 def _in(module: str, function: str) -> Command:

@@ -26,6 +26,7 @@ from .file_actions import FileActions
 from .main_window import MainWindow
 from .parts import Parts
 from .preview import Preview
+from .rigs import curves_of, face_path
 from .session import Session
 from .settings import ViewState
 from .speech_worker import SpeechWorker
@@ -80,15 +81,18 @@ class Editor(QObject):
         self.state.write()
 
 
-def run_editor(file: Path | None, sentence: str | None) -> int:
+def run_editor(file: Path | None, sentence: str | None, face: str | None) -> int:
     """`lipstitch [FILE]`: open the window and stay until it is closed."""
+    face_at = face_path(face)
     app = QApplication(sys.argv[:1])
     app.setApplicationName("lipstitch")
     theme.apply(app)
     state = ViewState()
     _catch_everything(state.folder)
-    editor = Editor(curve_set_json.load(resources.english_curves()), state)
+    editor = Editor(curve_set_json.load(curves_of(face_at)), state)
     editor.wiring.restore()
+    if face is not None:
+        editor.wiring.character.open(face_at)
     editor.window.show()
     editor.start(sentence or state.text("sentence") or resources.DEMO_SENTENCE)
 

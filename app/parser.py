@@ -41,6 +41,7 @@ def make_parser() -> Parser:
     edit = command("edit", "open the editor, as without a command", "lipstitch edit my-curves.json")
     edit.add_argument("file", nargs="?", type=Path, metavar="FILE", help="a curve set to open")
     edit.add_argument("--sentence", metavar="TEXT", help="what to type first")
+    edit.add_argument("--face", metavar="FACE", help=_FACE)
 
     bake = command(
         "bake",
@@ -101,6 +102,7 @@ def make_parser() -> Parser:
     )
     _speech_options(shot)
     shot.add_argument("--out", type=Path, required=True, metavar="FILE", help="the picture, .png")
+    shot.add_argument("--face", metavar="FACE", help=_FACE)
     shot.add_argument("--size", type=_size, default=(1600, 1000), metavar="WxH", help="pixels (default 1600x1000)")
 
     faces = command(

@@ -23,8 +23,8 @@ from .settings import ViewState
 PATIENCE_MS = 20_000
 
 
-def screenshot(text: str, curve_set: CurveSet, out: Path, size: tuple[int, int], voice: str = "en-us") -> int:
-    """Draw the window of `size` after the sentence has been spoken to its middle."""
+def screenshot(text: str, curve_set: CurveSet, out: Path, size: tuple[int, int], voice: str, face: Path) -> int:
+    """Draw the window of `size` after the sentence has been spoken to its middle by a face."""
     if out.suffix.lower() != ".png":
         raise UserError(f"Cannot tell the format of {out}: name the picture .png.")
     os.environ["QT_QPA_PLATFORM"] = "offscreen"
@@ -35,9 +35,12 @@ def screenshot(text: str, curve_set: CurveSet, out: Path, size: tuple[int, int],
         editor = Editor(curve_set, ViewState(Path(folder)))
         editor.window.resize(*size)
         editor.window.show()
+        editor.preview.set_lively(False)
+        editor.wiring.character.open(face)
         editor.preview.start()
         editor.wiring.sentence.take(utterance, play=False)
         editor.session.recompute()
+        editor.session.recompute()  # the first time is also the first use of numpy: no figure to show
         middle = utterance.schedule.start + utterance.schedule.duration / 2
         editor.wiring.bigram.open_at(middle)
         editor.preview.scrub(middle)
