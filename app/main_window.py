@@ -25,6 +25,7 @@ from widgets.canvas_header import CanvasHeader
 from widgets.curve_canvas import CurveCanvas
 from widgets.curve_panel import CurvePanel
 from widgets.face_view import FaceView
+from widgets.mapping_panel import MappingPanel
 from widgets.pose_list import PoseList
 from widgets.sentence_bar import SentenceBar
 from widgets.settings_panel import SettingsPanel
@@ -72,6 +73,7 @@ class MainWindow(QMainWindow):
         self.face_view = FaceView()
         self.weights = WeightsBars()
         self.settings_panel = SettingsPanel()
+        self.mapping_panel = MappingPanel()
         self.stage_panel = StagePanel()
         self.transport = Transport()
         self.sentence_bar = SentenceBar()
@@ -122,7 +124,11 @@ class MainWindow(QMainWindow):
         """A window made low puts its docks behind one another."""
         super().resizeEvent(event)
         if self._sized and event.size().height() < LOW <= event.oldSize().height():
+            mapping = self.mapping_dock.toggleViewAction().isChecked()
             self.default_layout()
+            if mapping:
+                self.mapping_dock.show()
+                self.mapping_dock.raise_()
 
     def restore_layout(self, geometry: QByteArray, docks: QByteArray) -> None:
         """Last time's layout, as far as it still fits."""
@@ -137,6 +143,7 @@ class MainWindow(QMainWindow):
             self.tabifyDockWidget(self.bigrams_dock, self.weak_dock)
             self.tabifyDockWidget(self.preview_dock, self.weights_dock)
             self.tabifyDockWidget(self.weights_dock, self.settings_dock)
+            self.tabifyDockWidget(self.weak_dock, self.mapping_dock)  # across from the face it changes
             self.bigrams_dock.raise_()
             self.preview_dock.raise_()
         left, right = min(420, width // 4), min(400, width // 4)
@@ -190,12 +197,17 @@ class MainWindow(QMainWindow):
         self.weights_dock = self._dock(self.tr("Pose weights"), self.weights, _Area.RightDockWidgetArea)
         self.settings_dock = self._dock(self.tr("Pipeline settings"), self.settings_panel, _Area.RightDockWidgetArea)
         self.stages_dock = self._dock(self.tr("Pipeline stages"), self.stage_panel, _Area.BottomDockWidgetArea)
+        self.mapping_dock = self._dock(self.tr("Face mapping"), self.mapping_panel, _Area.RightDockWidgetArea)
         self.tabifyDockWidget(self.weights_dock, self.settings_dock)
+        self.tabifyDockWidget(self.settings_dock, self.mapping_dock)
+        self.mapping_dock.hide()
         self.weights_dock.raise_()
         menu = self.actions_.view_menu
         menu.addSeparator()
         for dock in self.findChildren(QDockWidget):
-            menu.addAction(dock.toggleViewAction())
+            show = dock.toggleViewAction()
+            show.triggered.connect(lambda on, dock=dock: dock.raise_() if on else None)  # before others of its place
+            menu.addAction(show)
 
     def _dock(self, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
         dock = QDockWidget(title)

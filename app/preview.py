@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -38,6 +39,7 @@ class Preview(QObject):
     sentence_moment(float)     seconds
     frame_ready(QImage)        a drawn face
     failed(str)                why no face can be drawn
+    pose_held(bool)            whether the face holds a pose, whatever the sentence says
     """
 
     weights_changed = Signal(object)
@@ -45,6 +47,7 @@ class Preview(QObject):
     sentence_moment = Signal(float)
     frame_ready = Signal(QImage)
     failed = Signal(str)
+    pose_held = Signal(bool)
 
     def __init__(self, session: Session, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -56,6 +59,7 @@ class Preview(QObject):
         self.bigram_player.set_looping(True)
         self.pair: Pair | None = None
         self._bigram_time: float | None = None  # normalised; None: the sentence is shown
+        self._held: dict[str, float] = {}  # pose → weight, shown while nothing plays and nothing is edited
         self._size = (512, 512)
         self._face: Face | None = None
         self._view = View()
@@ -73,7 +77,7 @@ class Preview(QObject):
         self._life.setSingleShot(True)
         self._life.timeout.connect(self.refresh)
         self._asked = 0.0  # when the face was last asked for, on the monotonic clock
-        session.stages_changed.connect(self.refresh)
+        session.stages_changed.connect(self._stages_changed)
         self.player.time_changed.connect(self._sentence_time)
         self.bigram_player.time_changed.connect(self._bigram_time_changed)
 
@@ -101,6 +105,24 @@ class Preview(QObject):
         self.worker.set_face(face)
         self.refresh()
 
+    def set_pose_map(self, poses: Mapping[str, Mapping[str, float]]) -> None:
+        """Let the same character make its poses from other shapes, seen as before: pose → {shape: amount}."""
+        if self._face is not None:
+            self._face = replace(self._face, pose_map=poses)
+            self._matrix = None
+            self.refresh()
+
+    def show_pose(self, weights: Mapping[str, float]) -> None:
+        """Hold some poses, pose → weight, until something plays, is scrubbed or edited; {} lets go at once."""
+        if weights == self._held:
+            return
+        if weights:
+            self.player.pause()
+            self.bigram_player.pause()
+        self._held = dict(weights)
+        self.pose_held.emit(bool(weights))
+        self.refresh()
+
     @property
     def face(self) -> Face | None:
         """The character shown."""
@@ -113,6 +135,7 @@ class Preview(QObject):
 
     def show_sentence(self) -> None:
         """Show the sentence at the player's time."""
+        self.show_pose({})
         if self._bigram_time is not None:
             self._bigram_time = None
             self.bigram_player.pause()
@@ -121,6 +144,7 @@ class Preview(QObject):
 
     def show_bigram(self, s: float) -> None:
         """Show the open bigram alone at normalised time s."""
+        self.show_pose({})
         self.player.pause()
         self._bigram_time = s
         self.bigram_moment.emit(s)
@@ -219,6 +243,10 @@ class Preview(QObject):
         """Pixels of a frame, (width, height)."""
         return self._size
 
+    def _stages_changed(self) -> None:
+        self.show_pose({})
+        self.refresh()
+
     def _sentence_time(self, seconds: float) -> None:
         self.sentence_moment.emit(seconds)
         if self._bigram_time is None:
@@ -233,7 +261,13 @@ class Preview(QObject):
 
     def _show(self) -> None:
         self._turn.stop()
-        if self._bigram_time is not None and self.pair is not None:
+        poses = self._session.curve_set.poses
+        if self.player.playing or self.bigram_player.playing:
+            self.show_pose({})
+        if self._held:
+            seconds = self.player.time
+            weights = np.array([self._held.get(pose, 0.0) for pose in poses])
+        elif self._bigram_time is not None and self.pair is not None:
             seconds = self._bigram_time
             weights = self._session.bigram_weights_at(self.pair, self._bigram_time)
         else:
@@ -243,7 +277,6 @@ class Preview(QObject):
         if self._face is None:
             return
         self._asked = time.monotonic()
-        poses = self._session.curve_set.poses
         if self._matrix is None or self._matrix.shape[0] != len(poses):
             self._matrix = self._face.retarget(poses)
         amounts = weights.astype(np.float32) @ self._matrix
@@ -256,10 +289,7 @@ class Preview(QObject):
             return
         now = self._clock()
         playing = self.player.playing or self.bigram_player.playing
-        for shape, amount in (("blink", idle.blink(now)), ("browUp", idle.brow(now) if playing else 0.0)):
-            if shape in self._face.shapes:
-                place = self._face.shapes.index(shape)
-                amounts[place] = max(amounts[place], amount)
+        idle.enliven(amounts, self._face.shapes, now, playing)
         wait = BLINK_FRAME if idle.blink(now + BLINK_FRAME) else idle.next_blink(now) - now
         self._life.start(max(1, round(wait * 1000)))
 

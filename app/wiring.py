@@ -1,7 +1,8 @@
-"""The only place, with its two neighbours, where wishes become commands and values reach the views.
+"""The only place, with its neighbours, where wishes become commands and values reach the views.
 
 open_bigram.py has the canvas and what belongs to it, sentence.py the sentence and its transport,
-character.py the face; here is the rest: the document's news, the pipeline's results, settings, search, menus.
+character.py the face, mapping.py what makes its poses; here is the rest: the document's news, the pipeline's
+results, settings, search, menus.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from core_pipeline.speech.utterance import Utterance
 from widgets.weak_list import WeakRow
 
 from .character import Character
+from .mapping import Mapping
 from .open_bigram import OpenBigram
 from .parts import Parts
 from .preview import BIGRAM_SECONDS
@@ -50,6 +52,7 @@ class Wiring(QObject):
         self.bigram = OpenBigram(parts, self)
         self.sentence = Sentence(parts, self)
         self.character = Character(parts, self)
+        self.mapping = Mapping(parts, self)
         self._connect_document()
         self._connect_views()
         self._connect_menu()
@@ -252,7 +255,7 @@ class Wiring(QObject):
         )
 
     def _may_close(self) -> bool:
-        if not self._files.may_discard():
+        if not self._files.may_discard() or not self.mapping.may_close():
             return False
         self._files.autosave.clear()
         return True
@@ -274,6 +277,7 @@ class Wiring(QObject):
         """Keep this time's layout."""
         state, w, player = self._state, self._window, self._preview.player
         self.character.remember()
+        self.mapping.close()
         state.put("geometry", w.saveGeometry())
         state.put("docks", w.saveState())
         state.put("sentence", w.sentence_bar.sentence)
