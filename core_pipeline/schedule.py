@@ -83,10 +83,12 @@ class Schedule:
         Unknown phones stay too; `unknown` lists them.
         """
         known = set(phonemes)
-        phones = [p if p in known else phoneme_map.get(p, p) for p in self.phones]
-        return Schedule(phones, self.times)
+        if known.issuperset(self.phones):
+            return self
+        common = {p: phoneme_map.get(p, p) for p in set(self.phones) - known}
+        return Schedule([common.get(p, p) for p in self.phones], self.times)
 
     def unknown(self, phonemes: Sequence[str]) -> list[str]:
         """Phones that are neither silence nor in `phonemes`, each once, in order of appearance."""
-        known = {*phonemes, SILENCE}
-        return list(dict.fromkeys(p for p in self.phones if p not in known))
+        strange = set(self.phones) - {*phonemes, SILENCE}
+        return [p for p in dict.fromkeys(self.phones) if p in strange] if strange else []

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .tracks import NEAR, Tracks, joined, minimal
+from .tracks import NEAR, Tracks, inserted, minimal
 
 
 def limit_speed(tracks: Tracks, speed: float) -> Tracks:
@@ -51,5 +51,5 @@ def limit_speed(tracks: Tracks, speed: float) -> Tracks:
     inside = np.column_stack(((meet > NEAR) & (meet < width - NEAR), touches & (leave > NEAR) & (last > meet + NEAR)))
     more_x = np.column_stack((x[i] + meet, x[i] + last))[inside]  # row by row, hence in order
     more_v = np.column_stack((up + speed * meet, down + speed * leave))[inside]
-    x, v = joined(x, low, more_x, more_v)
+    x, v = inserted(x, low, np.column_stack((i, i))[inside], more_x, more_v)
     return tracks.with_knots(*minimal(x, np.clip(v, 0.0, 1.0)))

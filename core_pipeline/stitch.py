@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from .timewarp import Warped
-from .tracks import WIDTH, ZERO, Array, Tracks, apart, joined, minimal
+from .tracks import WIDTH, ZERO, Array, Tracks, apart, inserted, minimal
 
 
 def stitch(red: Warped) -> Tracks:
@@ -37,6 +37,6 @@ def _maximum(x: Array, v: Array, even: int) -> tuple[Array, Array]:
         width = xs[i + 1] - xs[i]
         clear = np.minimum(f, 1 - f) * width > WIDTH
         i, f, width = i[clear], f[clear], width[clear]
-        xs, top = joined(xs, top, xs[i] + f * width, a[i] + f * (a[i + 1] - a[i]))
-    top[top < ZERO] = 0.0
+        xs, top = inserted(xs, top, i, xs[i] + f * width, a[i] + f * (a[i + 1] - a[i]))
+    top *= top >= ZERO
     return apart(xs, top)

@@ -28,6 +28,8 @@ STEP = 1e-6
 WIDTH = 1e-9
 #: A weight below this is exactly 0, so that "where the pose is active" is well defined.
 ZERO = 1e-9
+#: Two knots nearer than this (seconds) can hide a corner from the test of each with its neighbours.
+CLOSE = 1e-5
 #: A knot nearer than this (weight) to the line between its neighbours is left out.
 COLLINEAR = 1e-9
 
@@ -144,7 +146,8 @@ def minimal(x: Array, v: Array) -> tuple[Array, Array]:
     np.greater(area, width, out=keep[1:-1])
     moves = v > 0  # where a pose begins or ends to move is never left out, however gently it does
     keep[1:-1] |= (moves[:-2] != moves[2:]) & ~moves[1:-1]
-    both = ((~(keep[1:] | keep[:-1])) & (moves[1:] | moves[:-1])).nonzero()[0]
+    close = (dx < CLOSE).nonzero()[0]
+    both = close[~(keep[close] | keep[close + 1]) & (moves[close] | moves[close + 1])]
     if both.size:
         _restore_corners(x, v, keep, np.union1d(both, both + 1))
     return pick(keep, x, v)
@@ -165,6 +168,17 @@ def _restore_corners(x: Array, v: Array, keep: Mask, gone: NDArray[np.intp]) -> 
             return
         keep[gone[corner]] = True
         gone = gone[~corner]
+
+
+def inserted(x: Array, v: Array, i: NDArray[np.intp], xc: Array, vc: Array) -> tuple[Array, Array]:
+    """The knots with one more, (xc, vc), behind each knot i; i must not fall."""
+    at = i + np.arange(1, i.size + 1)
+    old = np.ones(x.size + i.size, bool)
+    old[at] = False
+    xs, vs = np.empty(old.size), np.empty(old.size)
+    xs[at], vs[at] = xc, vc
+    xs[old], vs[old] = x, v
+    return xs, vs
 
 
 def joined(x: Array, v: Array, more_x: Array, more_v: Array) -> tuple[Array, Array]:
