@@ -64,6 +64,7 @@ class Preview(QObject):
         self._face: Face | None = None
         self._view = View()
         self._matrix: NDArray[np.float32] | None = None
+        self._matrix_poses: tuple[str, ...] = ()
         self._ms: list[float] = []
         self.worker = RenderWorker(self)
         self.worker.frame.connect(self._frame)
@@ -277,8 +278,8 @@ class Preview(QObject):
         if self._face is None:
             return
         self._asked = time.monotonic()
-        if self._matrix is None or self._matrix.shape[0] != len(poses):
-            self._matrix = self._face.retarget(poses)
+        if self._matrix is None or self._matrix_poses != poses:  # another set may have as many poses, of other names
+            self._matrix, self._matrix_poses = self._face.retarget(poses), poses
         amounts = weights.astype(np.float32) @ self._matrix
         self._live(amounts)
         self.worker.request(amounts, self._view, self._size, seconds)

@@ -62,6 +62,14 @@ def test_lips_are_seen_closed(results: list[Stages], phone: str) -> None:
     assert sealed(results, phone) >= 0.90
 
 
+def test_the_readme_says_what_is_measured(results: list[Stages], english: CurveSet) -> None:
+    got = {phone: round(100 * reached(results, english, phone)) for phone in CLOSURES}
+    shut = {phone: round(100 * sealed(results, phone)) for phone in CLOSURES}
+    readme = (Path(__file__).parents[2] / "README.md").read_text("utf-8")
+    assert f"in {got['bmp']} % of all cases, f and v in {got['f']} %" in readme
+    assert f"at 30 fps: {shut['bmp']} % and {shut['f']} %" in readme
+
+
 def test_the_face_never_falls_asleep_within_a_phrase(results: list[Stages]) -> None:
     assert longest_hole(results) <= 0.040
 

@@ -307,3 +307,22 @@ def test_a_set_with_other_poses_brings_the_character_that_can_make_them(editor: 
     assert editor.window.canvas.curves
     editor.document.new(curve_set_json.load(resources.english_curves()))
     qtbot.waitUntil(lambda: editor.preview.face is not None and editor.preview.face.name == "toon", timeout=20_000)
+
+
+def test_a_new_set_never_plays_through_the_poses_of_the_old_one(editor: Editor, qtbot: QtBot) -> None:
+    """English and the crab have nine poses each: as many, but not the same."""
+    qtbot.waitUntil(lambda: editor.preview.face is not None, timeout=20_000)
+    speak(editor, qtbot, "Fat cats.")
+    editor.preview.player.pause()
+    editor.preview.set_lively(False)
+    asked: list[float] = []
+    request = editor.preview.worker.request
+    editor.preview.worker.request = lambda amounts, *rest: (asked.append(float(amounts.max())), request(amounts, *rest))
+    editor.preview.scrub(0.5)
+    qtbot.waitUntil(lambda: bool(asked) and asked[-1] > 0, timeout=20_000)
+    toon = editor.preview.face
+    editor.document.new(curve_set_json.load(resources.assets() / "curves" / "crab.json"))
+    editor.session.recompute()
+    editor.preview.scrub(0.51)
+    assert editor.preview.face is toon  # the crab is still being read
+    assert asked[-1] == 0.0
