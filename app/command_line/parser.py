@@ -9,6 +9,8 @@ from typing import NoReturn
 from core_pipeline.errors import UserError
 from core_pipeline.settings import PRESETS, SPLINES
 
+from . import speech_options
+
 _FACE = "toon, ada, man, woman, crab; or a .glb, .gltf or .vrm; or a folder of .obj poses"
 
 
@@ -45,7 +47,7 @@ def make_parser() -> Parser:
 
     bake = command(
         "bake",
-        "turn a sentence or a schedule into weights per frame",
+        "turn a sentence, a recording, a label file or a schedule into weights per frame",
         'lipstitch bake "Fat cats often find fish" --out weights.json',
     )
     _speech_options(bake, text_optional=True)
@@ -57,6 +59,8 @@ def make_parser() -> Parser:
     bake.add_argument("--spline", choices=SPLINES, help="final spline (default: the curve set's own)")
     bake.add_argument("--fps", type=float, default=60, metavar="N", help="frames per second, 1 to 1000 (default 60)")
     bake.add_argument("--no-snap", action="store_true", help="do not put each peak on its nearest frame")
+    speech_options.add_to_bake(bake)
+    speech_options.add(command)
 
     check = command(
         "check",
