@@ -16,11 +16,11 @@ VERSION = 1
 SCHEMA = f"lipstitch.CurveSet.{VERSION}"
 
 #: A full English set takes half a megabyte.
-MAX_BYTES = 32 * 2**20
+MAX_BYTES = 16 * 2**20
 #: More brackets, braces or commas than this would take more memory than a curve set is worth.
-MAX_ARRAYS = 2_000_000
-MAX_OBJECTS = 400_000
-MAX_VALUES = 5_000_000
+MAX_ARRAYS = 400_000
+MAX_OBJECTS = 100_000
+MAX_VALUES = 1_000_000
 MAX_NAMES = 400
 MAX_KEYS = 2000
 #: A damaged file may have thousands of problems; this many are told.

@@ -186,10 +186,10 @@ def test_what_is_no_script_is_refused(data: bytes, told: str) -> None:
     ids=["one line", "empty lines", "dots", "quotes", "halves", "keys"],
 )
 def test_a_hostile_script_takes_no_time(data: bytes) -> None:
-    start = time.perf_counter()
+    start = time.process_time()
     with contextlib.suppress(UserError):
         import_set(parse_script(data, "set.py"))
-    assert time.perf_counter() - start < 4
+    assert time.process_time() - start < 3
 
 
 def test_a_huge_file_is_refused_without_reading_it_all(tmp_path: Path) -> None:
