@@ -12,7 +12,7 @@ from pathlib import Path
 from PySide6.QtCore import QObject, QTimer
 from PySide6.QtWidgets import QMessageBox
 
-from core_pipeline.diagnose import Weakness, weak_bigrams
+from core_pipeline.diagnose import weak_bigrams
 from core_pipeline.errors import UserError
 from core_pipeline.phonemes import SILENCE, Pair, pair_name
 from core_pipeline.pipeline import Stages
@@ -209,18 +209,9 @@ class Wiring(QObject):
     def _show_weak(self) -> None:
         w, stages = self._window, self._session.stages
         weak = weak_bigrams(stages, self._session.curve_set) if stages is not None else []
-        w.weak_list.set_rows([WeakRow(x.pair, self._why(x), x.time, x.uses, x.severity > 0.2) for x in weak])
-        w.picker.set_weak({x.pair: self._why(x) for x in weak if x.severity > 0.2})
+        w.weak_list.set_rows([WeakRow(x.pair, x.reason, x.worst.time, x.uses, not x.is_hint) for x in weak])
+        w.picker.set_weak({x.pair: x.reason for x in weak if not x.is_hint})
         w.picker.set_used(self._session.used())
-
-    def _why(self, weakness: Weakness) -> str:
-        if weakness.kind == "slowed":
-            return self.tr("{0}: {1} % lost to the speed limit").format(weakness.pose, round(100 * weakness.amount))
-        return {
-            "missing": self.tr("missing"),
-            "flat": self.tr("no curve rises"),
-            "unreviewed": self.tr("not reviewed yet"),
-        }[weakness.kind]
 
     def _sentence_moment(self, seconds: float) -> None:
         w = self._window
