@@ -19,20 +19,20 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from widgets.bigram_picker import BigramPicker
-from widgets.bigram_transport import BigramTransport
-from widgets.canvas_header import CanvasHeader
-from widgets.curve_canvas import CurveCanvas
-from widgets.curve_panel import CurvePanel
-from widgets.face_view import FaceView
-from widgets.mapping_panel import MappingPanel
-from widgets.pose_list import PoseList
+from widgets.canvas.bigram_transport import BigramTransport
+from widgets.canvas.canvas_header import CanvasHeader
+from widgets.canvas.curve_canvas import CurveCanvas
+from widgets.canvas.curve_panel import CurvePanel
+from widgets.canvas.pose_list import PoseList
+from widgets.overlay.stage_panel import StagePanel
+from widgets.picker.bigram_picker import BigramPicker
+from widgets.picker.weak_list import WeakList
+from widgets.preview.face_view import FaceView
+from widgets.preview.mapping_panel import MappingPanel
+from widgets.preview.weights_bars import WeightsBars
 from widgets.sentence_bar import SentenceBar
-from widgets.settings_panel import SettingsPanel
-from widgets.stage_panel import StagePanel
+from widgets.settings.settings_panel import SettingsPanel
 from widgets.transport import Transport
-from widgets.weak_list import WeakList
-from widgets.weights_bars import WeightsBars
 
 from .actions import Actions
 from .document import Document
