@@ -6,7 +6,7 @@ so are the triangles beside it; a few rounds bring out what is seen from a portr
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -23,6 +23,8 @@ ROUNDS = 3
 _SEEN = 0.06
 #: Shortest edge worth halving, in heights of the head.
 _SHORTEST = 0.006
+#: How much stands around what moves, in sizes of that.
+_AROUND = 0.4
 _ALONG = (0.25, 0.5, 0.75)
 
 Triangles = NDArray[np.uint32]
@@ -62,6 +64,17 @@ def refined(
         count = len(positions) + sum(map(len, finer.rounds))
         finer = Finer(_halved(finer.triangles, ends, count), (*finer.rounds, ends))
     return finer
+
+
+def head_box(meshes: Iterable[tuple[Floats, Collection[Floats]]]) -> Box | None:
+    """The box of all that moves, and almost half as much around, of (positions, deltas); None when nothing does."""
+    moving = [points[np.any([delta.any(axis=1) for delta in deltas], axis=0)] for points, deltas in meshes if deltas]
+    points = np.concatenate(moving) if moving else np.zeros((0, 3), np.float32)
+    if not len(points):
+        return None
+    low, high = points.min(0), points.max(0)
+    around = _AROUND * (high - low).max()
+    return low - around, high + around
 
 
 def _wanted(

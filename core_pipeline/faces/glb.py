@@ -5,8 +5,8 @@ Every vertex is placed as the file's rest pose places it (nodes, and joints wher
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -15,18 +15,17 @@ from numpy.typing import NDArray
 from core_pipeline.errors import UserError
 from core_pipeline.faces import draco
 from core_pipeline.faces.face import Face, Floats
-from core_pipeline.faces.finer import MOST_TRIANGLES, Box, Finer
+from core_pipeline.faces.finer import MOST_TRIANGLES, Finer, head_box
 from core_pipeline.faces.framing import frame
 from core_pipeline.faces.gltf_colours import Colours
 from core_pipeline.faces.gltf_file import GltfFile, Json
 from core_pipeline.faces.gltf_scene import Matrix, Scene
 from core_pipeline.faces.limits import LARGEST, MAX_MORPH_BYTES, MAX_VERTICES
 from core_pipeline.faces.normals import VertexNormals, seam_groups, shape_normals
+from core_pipeline.faces.vrm import expressions
 from core_pipeline.files.json_text import shown
 
 MAX_PARTS = 2000
-#: How much stands around what moves, in sizes of that.
-_AROUND = 0.4
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 
 Cancelled = Callable[[], bool]
@@ -51,7 +50,8 @@ def read_rig(path: Path, cancelled: Cancelled = lambda: False) -> tuple[Face, li
             raise UserError(f"{path.name}: opening was cancelled.")
         patches.append(_patch(gltf, scene, plan))
     _colour(colours, patches, planned)
-    return _join(gltf, patches), gltf.files, tuple(gltf.notes)
+    face = _join(gltf, patches)
+    return replace(face, expressions=_expressions(gltf, planned, face.shapes)), gltf.files, tuple(gltf.notes)
 
 
 @dataclass(frozen=True)
@@ -145,6 +145,13 @@ def _names(gltf: GltfFile, mesh: Json, drawn: list[Json], title: str) -> list[st
     return list(once)
 
 
+def _expressions(gltf: GltfFile, plans: list[_Plan], shapes: tuple[str, ...]) -> dict[str, Mapping[str, float]]:
+    """What a VRM makes of the shapes that were read."""
+    names = {plan.node["mesh"]: plan.names for plan in plans}
+    made = expressions(gltf, lambda mesh: names.get(mesh, ()))
+    return {name: mix for name, mix in made.items() if set(mix) <= set(shapes)}
+
+
 def _patch(gltf: GltfFile, scene: Scene, plan: _Plan) -> _Patch:
     """A primitive where the scene puts it; not coloured yet."""
     primitive, title = plan.primitive, plan.title
@@ -170,7 +177,7 @@ def _patch(gltf: GltfFile, scene: Scene, plan: _Plan) -> _Patch:
 
 def _colour(colours: Colours, patches: list[_Patch], plans: list[_Plan]) -> None:
     """Give every patch its colours, and finer triangles round the head where its picture shows more than they can."""
-    box = _head_box(patches)
+    box = head_box([(patch.positions, patch.deltas.values()) for patch in patches])
     shapes = len({name for patch in patches for name in patch.deltas})
     vertices = sum(len(patch.positions) for patch in patches)
     room = MOST_TRIANGLES - sum(len(patch.triangles) for patch in patches)
@@ -189,21 +196,6 @@ def _colour(colours: Colours, patches: list[_Patch], plans: list[_Plan]) -> None
             patch.positions, patch.normals = finer.of(patch.positions), _unit(finer.of(patch.normals))
             patch.deltas = {name: finer.of(delta) for name, delta in patch.deltas.items()}
         patch.triangles, patch.colours = finer.triangles[surface.shown], surface.colours
-
-
-def _head_box(patches: list[_Patch]) -> Box | None:
-    """The box of all that moves, and almost half as much around; None when nothing does."""
-    moving = [
-        patch.positions[np.any([delta.any(axis=1) for delta in patch.deltas.values()], axis=0)]
-        for patch in patches
-        if patch.deltas
-    ]
-    points = np.concatenate(moving) if moving else np.zeros((0, 3), np.float32)
-    if not len(points):
-        return None
-    low, high = points.min(0), points.max(0)
-    around = _AROUND * (high - low).max()
-    return low - around, high + around
 
 
 def _same_counts(gltf: GltfFile, title: str, count: int, attributes: Json, targets: list[Json]) -> None:

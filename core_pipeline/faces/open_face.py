@@ -103,7 +103,7 @@ def _retarget(path: Path, face: Face, presets: Iterable[Preset], poses: Sequence
     if ours:
         mixes = {pose: face.mix(pose) for pose in dict.fromkeys((*face.pose_map, *poses)) if face.mix(pose)}
         return _settled(OWN_NAMES, "its own face.json", mixes, poses)
-    return best(face.shapes, presets, poses)
+    return best(face.shapes, presets, poses, face.expressions)
 
 
 def _saved(face: Face, preset: str, mixes: Mapping[str, Mix], poses: Sequence[str], path: Path) -> Retarget:

@@ -42,6 +42,7 @@ MESHES = {
 }
 WITH_SHAPES = ("Wolf3D_Head", "Wolf3D_Teeth")
 
+#: (elements (n, bytes), "ATTRIBUTES" or "TRIANGLES") → stream
 Pack = Callable[[np.ndarray, str], bytes]
 
 
@@ -63,7 +64,7 @@ def toon() -> Face:
 
 
 def avatar(shapes: Sequence[str], *, quantised: bool = False, pack: Pack | None = None, body: bool = True) -> Gltf:
-    """The file. `pack` compresses every buffer view: (elements (n, bytes), mode) → stream."""
+    """The file. `pack` compresses the buffer views: vertices always, indices too when it is an encoder for both."""
     gltf = Gltf()
     document = gltf.json
     joints = [1, 2]
@@ -86,6 +87,23 @@ def avatar(shapes: Sequence[str], *, quantised: bool = False, pack: Pack | None 
         document["extensionsRequired"] = [*document["extensionsRequired"], "EXT_meshopt_compression"]
         document["buffers"].append({"byteLength": 2**20, "extensions": {"EXT_meshopt_compression": {"fallback": True}}})
     return gltf
+
+
+def packed(raw: np.ndarray, _mode: str = "ATTRIBUTES") -> bytes:
+    """Vertices (n, stride) as a meshopt stream in which a group of sixteen is nothing or whole bytes."""
+    count, stride = raw.shape
+    steps = np.diff(raw, axis=0, prepend=raw[:1]).astype(np.uint8)
+    zigzag = (steps << 1) ^ (steps.view(np.int8) >> 7).view(np.uint8)
+    block, stream = min(8192 // stride & ~15, 256), bytearray(b"\xa0")
+    for first in range(0, count, block):
+        part = zigzag[first : first + block]
+        part = np.pad(part, ((0, -len(part) % 16), (0, 0))).reshape(-1, 16, stride)
+        used = part.any(axis=1)
+        for column in range(stride):
+            header = sum(3 << 2 * group for group in np.flatnonzero(used[:, column]).tolist())
+            stream += header.to_bytes(-(-len(part) // 4), "little")
+            stream += part[used[:, column], :, column].tobytes()
+    return bytes(stream) + bytes(max(32 - stride, 0)) + raw[0].tobytes()
 
 
 def _piece(name: str, shapes: Sequence[str]) -> Piece:
@@ -231,7 +249,7 @@ class _Writer:
     def values(self, values: np.ndarray, *, normalized: bool = False, indices: bool = False) -> int:
         if self._pack is None and values.dtype.kind != "f" and not indices:
             return self._strided(values, normalized)
-        if self._pack is None:
+        if self._pack is None or (indices and self._pack is packed):
             return self._gltf.accessor(values, normalized=normalized)
         if indices:
             raw, stride = np.ascontiguousarray(values), values.dtype.itemsize
