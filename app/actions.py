@@ -56,6 +56,11 @@ class Actions:
             keymap.setData(name)
         self.open_face = self._action(tr("Open &Face…"), "Ctrl+Shift+O", tr("Show a .glb, .gltf or .vrm of yours"))
         self.open_face_folder = self._action(tr("Open Face Fol&der…"), None, tr("Show a folder of .obj poses"))
+        self.new_set_for_face = self._action(
+            tr("New Curve &Set for This Face's Poses"),
+            None,
+            tr("Start an empty set whose poses are the face's own shapes"),
+        )
         self.about = self._action(tr("&About Lipstitch"), None, "")
         self._menus()
 
