@@ -60,9 +60,7 @@ def poses_of(face: Face) -> tuple[str, ...]:
         if not _SILENT.search(normalised(shape)) and delta.any()
     ]
     if not speaking:
-        raise UserError(
-            f"{face.title}: none of its {len(face.shapes)} shapes moves the mouth, so it makes no pose set."
-        )
+        raise UserError(f"{face.title}: none of its {len(face.shapes)} shapes moves the mouth; choose another rig.")
     if len(speaking) > MAX_POSES:
         raise UserError(f"{face.title}: {len(speaking)} shapes are more poses than a set may have ({MAX_POSES}).")
     return tuple(sorted(speaking, key=lambda shape: role_of(shape) == "tongue"))

@@ -1,4 +1,4 @@
-"""What a VRM avatar calls its expressions, and which morph targets make each: its author's word, whatever they are named.
+"""What a VRM avatar calls its expressions, and which morph targets make each, whatever these are named.
 
 VRM 1.0 (VRMC_vrm) binds targets of nodes with weights up to 1; VRM 0 (VRM) binds targets of meshes with weights up
 to 100. Both from their published schemas.
