@@ -123,6 +123,7 @@ class Wiring(QObject):
         a.safe_colours.toggled.connect(w.stage_panel.set_palette_safe)
         w.play_wanted.connect(self._preview.toggle_sentence)
         w.dropped.connect(self._open_dropped)
+        self.character.set_wanted.connect(self._files.new_empty)
 
     # ── document → views ─────────────────────────────────────────────────────────────────────────
 
