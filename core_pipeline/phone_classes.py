@@ -22,8 +22,11 @@ CLASSES: tuple[tuple[str, ...], ...] = (
     ("bmp",),
 )
 
-#: From the commonest to the rarest: 5,380 phones of plain English prose, this project's README, as espeak-ng speaks it.
-BY_FREQUENCY = tuple("d ah z ih bmp eh r f kg w l th ow sh ay er ao aa h aw oy".split())
+#: From the commonest to the rarest: 5,380 phones of plain prose, this project's README, as espeak-ng speaks it.
+BY_FREQUENCY = (
+    "d", "ah", "z", "ih", "bmp", "eh", "r", "f", "kg", "w", "l", "th", "ow", "sh", "ay", "er", "ao", "aa", "h", "aw",
+    "oy",
+)  # fmt: skip
 
 _CLASS: Mapping[str, int] = MappingProxyType({phone: i for i, group in enumerate(CLASSES) for phone in group})
 

@@ -7,19 +7,23 @@ word; never for speaking.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
 
 from .letters import RULES
-from .utterance import Utterance, Word
+from .utterance import Utterance
+
+#: First letter, and one behind the last.
+Span = tuple[int, int]
 
 #: What it costs to leave a letter silent, to sound a phone that no letter stands for, to spell it oddly.
 _SILENT, _UNWRITTEN, _ODD = 2.0, 3.0, 1.5
 _LONGEST = max(map(len, RULES))
 
 #: Sounds that spelling tells apart badly.
-_ALIKE = {phone: group for group in ("ae ah ax aa ao eh ih uh er", "ey eh ae", "iy ih", "uw uh w", "s z", "t d", "ow ao")
-          for phone in group.split()}  # fmt: skip
+_GROUPS = ("ae ah ax aa ao eh ih uh er", "ey eh ae", "iy ih", "uw uh w", "s z", "t d", "ow ao")
+_ALIKE = {phone: group.split() for group in _GROUPS for phone in group.split()}
 
 
 def _spells(grapheme: str, phones: tuple[str, ...]) -> float | None:
@@ -27,14 +31,13 @@ def _spells(grapheme: str, phones: tuple[str, ...]) -> float | None:
     known = RULES.get(grapheme)
     if known is None or len(known) != len(phones):
         return None
-    costs = (
-        0.0 if a == b else 0.5 if b in _ALIKE.get(a, "").split() else 4.0 for a, b in zip(known, phones, strict=True)
-    )
+    costs = (0.0 if a == b else 0.5 if b in _ALIKE.get(a, ()) else 4.0 for a, b in zip(known, phones, strict=True))
     return sum(costs)
 
 
-def letters_of(word: str, phones: Sequence[str]) -> list[tuple[int, int]]:
-    """For each phone the span of letters, first and one behind the last; empty spans for sounds that are not written.
+@lru_cache(1024)
+def letters_of(word: str, phones: tuple[str, ...]) -> tuple[Span, ...]:
+    """For each phone the span of its letters; empty spans for sounds that are not written.
 
     word  as written, of any case, with apostrophes or hyphens; phones are ARPAbet's
     """
@@ -61,33 +64,37 @@ def letters_of(word: str, phones: Sequence[str]) -> list[tuple[int, int]]:
                     spelt = _spells(text[i : i + size], tuple(phones[j : j + len(known)]))
                     if spelt is not None:
                         offer(i + size, j + len(known), cost + spelt, i, j)
-    spans: list[tuple[int, int]] = []
+    spans: list[Span] = []
     i, j = n, m
     while i or j:
         _, from_i, from_j = best[i][j]
         spans[:0] = [(from_i, i)] * (j - from_j)
         i, j = from_i, from_j
-    return spans
+    return tuple(spans)
 
 
-def in_words(utterance: Utterance, index: int) -> tuple[str, tuple[int, int]]:
-    """Where an utterance has the bigram of its phones `index` and the next: ("fat", (0, 2)), ("cats often", (3, 6)).
+def in_words(utterance: Utterance) -> list[tuple[str, Span]]:
+    """Where each bigram of an utterance stands in its text: ("fat", (0, 2)), ("cats often", (3, 6)).
 
-    The word or the two words in which it sounds, and the span of its letters; ("", (0, 0)) outside of every word.
+    For the phones i and i + 1 the word or the two words in which they sound, and the span of their letters;
+    ("", (0, 0)) outside of every word.
     """
     schedule = utterance.schedule
     middles = (schedule.times[1:] + schedule.times[:-1]) / 2
-    found: list[tuple[Word, tuple[int, int]]] = []
-    for phone in (index, index + 1):
-        middle = middles[phone] if 0 <= phone < middles.size else -np.inf
-        word = next((word for word in utterance.words if word.start <= middle <= word.end), None)
-        if word is not None:
-            inside = np.flatnonzero((middles >= word.start) & (middles <= word.end)).tolist()
-            spans = letters_of(word.text, [schedule.phones[i] for i in inside])
-            found.append((word, spans[inside.index(phone)]))
+    places: list[tuple[int, Span] | None] = [None] * len(schedule)
+    for number, word in enumerate(utterance.words):
+        inside = np.flatnonzero((middles >= word.start) & (middles <= word.end)).tolist()
+        spans = letters_of(word.text, tuple(schedule.phones[i] for i in inside))
+        for i, span in zip(inside, spans, strict=True):
+            places[i] = number, span
+    return [_joined(utterance, [place for place in places[i : i + 2] if place]) for i in range(len(schedule) - 1)]
+
+
+def _joined(utterance: Utterance, found: Sequence[tuple[int, Span]]) -> tuple[str, Span]:
     if not found:
         return "", (0, 0)
     (first, start), (last, end) = found[0], found[-1]
-    if first is last:
-        return first.text, (start[0], end[1])
-    return f"{first.text} {last.text}", (start[0], len(first.text) + 1 + end[1])
+    text = utterance.words[first].text
+    if first == last:
+        return text, (start[0], end[1])
+    return f"{text} {utterance.words[last].text}", (start[0], len(text) + 1 + end[1])
