@@ -15,7 +15,7 @@ from core_pipeline.errors import UserError
 from core_pipeline.files.atomic import reason
 from core_pipeline.files.json_text import shown
 
-from .parser import make_parser
+from .command_line.parser import make_parser
 
 Command = Callable[[argparse.Namespace], int]
 
@@ -103,7 +103,7 @@ def _is_command(word: str) -> bool:
 def _edit(options: argparse.Namespace) -> int:
     if not has_display():
         from . import resources
-        from .demo import demo
+        from .command_line.demo import demo
 
         return demo(options.sentence or resources.DEMO_SENTENCE, options.file)
     from .editor import run_editor
@@ -112,9 +112,9 @@ def _edit(options: argparse.Namespace) -> int:
 
 
 def _screenshot(options: argparse.Namespace) -> int:
+    from .command_line.screenshot import screenshot
+    from .command_line.steps import load_curves
     from .rigs import curves_of, face_path
-    from .screenshot import screenshot
-    from .steps import load_curves
 
     face = face_path(options.face)
     curve_set = load_curves(options, curves_of(face))
@@ -133,12 +133,12 @@ def _in(module: str, function: str) -> Command:
 
 COMMANDS: Mapping[str, Command] = {
     "edit": _edit,
-    "bake": _in("batch", "bake"),
-    "check": _in("batch", "check"),
-    "render": _in("clips", "render"),
+    "bake": _in("command_line.bake", "bake"),
+    "check": _in("command_line.check", "check"),
+    "render": _in("command_line.clips", "render"),
     "face": _in("rigs", "tell_face"),
-    "contact-sheet": _in("contact_sheet", "contact_sheet"),
+    "contact-sheet": _in("command_line.contact_sheet", "contact_sheet"),
     "screenshot": _screenshot,
-    "build-faces": _in("build", "build_faces"),
-    "build-curves": _in("build", "build_curves"),
+    "build-faces": _in("command_line.build", "build_faces"),
+    "build-curves": _in("command_line.build", "build_curves"),
 }

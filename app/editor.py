@@ -24,13 +24,13 @@ from .document import Document
 from .faces import Faces
 from .file_actions import FileActions
 from .main_window import MainWindow
-from .parts import Parts
 from .preview import Preview
 from .rigs import curves_of, face_path
 from .session import Session
 from .settings import ViewState
 from .speech_worker import SpeechWorker
-from .wiring import Wiring
+from .wiring.parts import Parts
+from .wiring.wiring import Wiring
 
 _log = logging.getLogger("lipstitch")
 

@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 from math import isfinite
 
-from .curve_geometry import Array
+from .canvas.curve_geometry import Array
 
 _FORM = re.compile(r"\s*([=*/+\-−×]?)\s*([0-9]+(?:[.,][0-9]*)?|[.,][0-9]+)\s*(%?)\s*")
 

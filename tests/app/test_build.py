@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from app import cli
-from app.progress import bar
+from app.command_line.progress import bar
 from app.resources import english_curves, face_folder
 from core_pipeline.faces.face_folder import load
 

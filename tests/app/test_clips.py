@@ -13,7 +13,7 @@ from PIL import Image
 
 from app import cli
 from app.cli import main
-from app.mp4 import Mp4
+from app.command_line.mp4 import Mp4
 from core_pipeline.errors import UserError
 from core_pipeline.speech.utterance import Audio
 

@@ -14,8 +14,8 @@ from PySide6.QtWidgets import QApplication
 from core_pipeline.curves import Curve
 from core_pipeline.poses import FACEFX
 from tests.helpers.budget import within
-from widgets.curve_canvas import CurveCanvas
-from widgets.curve_panel import CurvePanel
+from widgets.canvas.curve_canvas import CurveCanvas
+from widgets.canvas.curve_panel import CurvePanel
 
 
 def nine_poses():

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QApplication
 from core_pipeline.curves import Curve
 from tests.helpers.budget import within
 from tests.helpers.stages import curve_set, sentence
-from widgets.stage_panel import StagePanel
+from widgets.overlay.stage_panel import StagePanel
 
 PHONES = " ".join(["sil ah f ah bmp d l ow sil w"] * 4)
 ONE_POSE, EVERYTHING, PLAYHEAD = 4e-3, 12e-3, 0.3e-3  # seconds

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QApplication
 from core_pipeline.phonemes import COMMON
 from tests.helpers.budget import within
 from widgets import theme
-from widgets.bigram_picker import BigramPicker
+from widgets.picker.bigram_picker import BigramPicker
 
 # the offscreen platform has no window manager to talk to
 pytestmark = pytest.mark.qt_log_ignore("This plugin does not support")

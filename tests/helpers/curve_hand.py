@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QApplication
 
 from core_pipeline.curves import Curve
 from core_pipeline.poses import FACEFX
-from widgets.curve_canvas import CurveCanvas
+from widgets.canvas.curve_canvas import CurveCanvas
 
 NONE = Qt.KeyboardModifier.NoModifier
 SHIFT = Qt.KeyboardModifier.ShiftModifier

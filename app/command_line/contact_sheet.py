@@ -1,0 +1,120 @@
+"""`lipstitch contact-sheet`: every pose of a face on one page, from the front and in three-quarter view, named."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from PIL import Image, ImageDraw, ImageFont
+
+from core_pipeline.errors import UserError
+from core_pipeline.faces.face import Face
+from core_pipeline.files import curve_set_json
+from core_pipeline.files.json_text import shown
+from core_pipeline.poses import MEANING, TONGUE
+
+from ..rigs import curves_of, face_path, is_ours, open_rig
+from .frames import FaceFrames, save_png
+from .progress import Progress
+
+#: Where the three-quarter view looks from, in degrees beside the face's own camera.
+THREE_QUARTER = 38.0
+#: How far the mouth opens for a pose of the tongue, which closed lips would hide.
+TONGUE_OPEN = 0.3
+COLUMNS = 3
+#: More than any screen or printer shows; beyond it memory runs out.
+MAX_PIXELS = 100_000_000
+
+_MARGIN, _GAP, _SEAM = 20, 18, 2
+_TITLE, _LABEL = 26, 15
+_PAPER, _INK, _FAINT = (27, 29, 33), (226, 229, 234), (138, 145, 156)
+
+Pose = tuple[str, str, Mapping[str, float]]  # name, what is said beside it, shape → amount
+
+
+def contact_sheet(options: argparse.Namespace) -> int:
+    """Draw the sheet of the face the options name."""
+    out: Path = options.out
+    if out.suffix.lower() != ".png":
+        raise UserError(f"Cannot tell the format of {out}: name the picture .png.")
+    path = face_path(options.face)
+    poses = curve_set_json.read(options.curves or curves_of(path)).curve_set.poses
+    face = open_rig(path, poses).face
+    shown_poses = poses_of(face, poses, idle=is_ours(path))
+    if 2 * len(shown_poses) * options.size[0] * options.size[1] > MAX_PIXELS:
+        raise UserError(f"{len(shown_poses)} poses that large are no picture any more: choose a smaller --size.")
+    save_png(sheet(face, shown_poses, options.size), out)
+    print(f"{len(shown_poses)} poses of {shown(face.title, 200)} in {out}")
+    return 0
+
+
+def poses_of(face: Face, poses: Sequence[str], *, idle: bool) -> list[Pose]:
+    """What is shown, in order: the neutral face, the poses of a set, and with `idle` the shapes that are in no pose."""
+    jaw = next((pose for pose in poses if "open" in pose.casefold()), None)
+    found: list[Pose] = [("neutral", "", {})]
+    for pose in poses:
+        mix, note = face.mix(pose), MEANING.get(pose, "")
+        if not mix:
+            note = "not available on this face"
+        elif jaw is not None and (pose in TONGUE or "tongue" in pose.casefold()):
+            opened = {shape: TONGUE_OPEN * amount for shape, amount in face.mix(jaw).items()}
+            mix = {shape: opened.get(shape, 0) + mix.get(shape, 0) for shape in (*opened, *mix)}
+            note = f"{note}; " * bool(note) + f"with {jaw} {TONGUE_OPEN:g}"
+        found.append((pose, note, mix))
+    if idle:
+        used = {shape for pose in poses for shape in face.mix(pose)}
+        found += [(shape, "", {shape: 1.0}) for shape in face.shapes if shape not in used]
+    return found
+
+
+def sheet(face: Face, poses: Sequence[Pose], size: tuple[int, int]) -> Image.Image:
+    """The page: pairs of pictures of `size` (width, height) pixels, three pairs in a row."""
+    width, height = size
+    pair, label = 2 * width + _SEAM, 2 * _LABEL
+    columns = min(COLUMNS, len(poses))
+    rows = -(-len(poses) // columns)
+    head = _MARGIN + 2 * _TITLE
+    page = Image.new(
+        "RGB",
+        (2 * _MARGIN + columns * pair + (columns - 1) * _GAP, head + rows * (height + label + _GAP) + _MARGIN - _GAP),
+        _PAPER,
+    )
+    draw = ImageDraw.Draw(page)
+    draw.text((_MARGIN, _MARGIN), shown(face.title, 80), _INK, ImageFont.load_default(_TITLE))
+    with Progress(len(poses), "poses") as progress:
+        for number, (pose, pictures) in enumerate(zip(poses, _pictures(face, poses, size), strict=True)):
+            x = _MARGIN + number % columns * (pair + _GAP)
+            y = head + number // columns * (height + label + _GAP)
+            for side, picture in enumerate(pictures):
+                page.paste(picture, (x + side * (width + _SEAM), y))
+            _write(draw, pose, (x, y + height + _LABEL // 2), pair)
+            progress.step(number + 1)
+    return page
+
+
+def _pictures(face: Face, poses: Sequence[Pose], size: tuple[int, int]) -> Iterator[tuple[Image.Image, Image.Image]]:
+    frames = FaceFrames(face, face.shapes, size)
+    side = replace(frames.view, yaw=frames.view.yaw + THREE_QUARTER)
+    for _, _, mix in poses:
+        amounts = np.array([mix.get(shape, 0.0) for shape in face.shapes])
+        yield frames.picture(amounts), frames.picture(amounts, side)
+
+
+def _write(draw: ImageDraw.ImageDraw, pose: Pose, place: tuple[int, int], width: int) -> None:
+    """The name, and in fainter letters what is said beside it, cut where the pair of pictures ends."""
+    font = ImageFont.load_default(_LABEL)
+    name = _cut(shown(pose[0], 80), font, width)
+    draw.text(place, name, _INK, font)
+    x = place[0] + round(font.getlength(name)) + _LABEL
+    draw.text((x, place[1]), _cut(pose[1], font, place[0] + width - x), _FAINT, font)
+
+
+def _cut(text: str, font: ImageFont.FreeTypeFont | ImageFont.ImageFont, width: float) -> str:
+    if font.getlength(text) <= width:
+        return text
+    while text and font.getlength(f"{text}…") > width:
+        text = text[:-1]
+    return f"{text}…" if text else ""

@@ -1,0 +1,249 @@
+"""Which bigram is open, where the sentence has it, and how canvas, header and pose list show it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from PySide6.QtCore import QObject
+
+from core_pipeline.curve_set import Bigram
+from core_pipeline.curves import Curve
+from core_pipeline.errors import UserError
+from core_pipeline.phonemes import Pair
+
+from .parts import Parts
+
+
+class OpenBigram(QObject):
+    """The bigram in the canvas: opens, shows and edits it.
+
+    pair   the open bigram, None in a set without phonemes
+    index  which of the sentence's bigrams it is, None when the sentence does not have it
+    """
+
+    def __init__(self, parts: Parts, parent: QObject) -> None:
+        super().__init__(parent)
+        self._document = parts.document
+        self._session = parts.session
+        self._preview = parts.preview
+        self._window = parts.window
+        self.pair: Pair | None = None
+        self.index: int | None = None
+        self._visible: set[str] = set()
+        self._locked: set[str] = set()
+        w = self._window
+        w.canvas.preview_changed.connect(self._gesture)
+        w.canvas.edited.connect(self._edited)
+        w.canvas.cancelled.connect(self._gesture_cancelled)
+        w.canvas.active_changed.connect(self.activate_pose)
+        w.pose_list.pose_picked.connect(self.activate_pose)
+        w.pose_list.visibility_changed.connect(self._visibility_changed)
+        w.pose_list.lock_changed.connect(self._lock_changed)
+        for view in (w.pose_list, w.canvas):
+            view.solo_wanted.connect(w.pose_list.set_solo)
+            view.solo_wanted.connect(w.canvas.set_solo)
+        w.stage_panel.pose_activated.connect(self.activate_pose)
+        w.stage_panel.bigram_picked.connect(self._open_from_overlay)
+        w.picker.picked.connect(self.open)
+        w.weak_list.picked.connect(self._open_weak)
+
+    # ── open ─────────────────────────────────────────────────────────────────────────────────────
+
+    def open(self, pair: Pair | None, index: int | None = None) -> None:
+        """Show a bigram in the canvas; `index` is its place in the sentence, else its first there."""
+        changed = pair != self.pair
+        self.pair = pair
+        self.index = index if index is not None else self._first_index()
+        w = self._window
+        if changed:
+            first, second = pair or ("", "")
+            self._preview.set_pair(pair)
+            w.canvas.set_bigram(first, second)
+            w.header.set_bigram(first, second)
+            w.canvas.set_ghost(self._bigram.curves)
+            self._activate_drawn_pose()
+        w.picker.set_current(pair)
+        self.show_curves()
+
+    def open_at(self, seconds: float) -> None:
+        """Open the bigram that sounds at a moment of the sentence."""
+        stages = self._session.stages
+        if stages is not None and len(stages.schedule) > 1:
+            i = int(np.searchsorted(stages.schedule.times, seconds, side="right")) - 1
+            i = min(max(i, 0), len(stages.schedule) - 2)
+            self.open(stages.schedule.pairs()[i], i)
+
+    def open_swapped(self) -> None:
+        """From a-b to b-a."""
+        if self.pair is not None:
+            self.open(self.pair[::-1])
+
+    def open_next(self, step: int = 1) -> None:
+        """The sentence's next bigram, or the previous one with step −1; from the end to the start."""
+        stages = self._session.stages
+        if stages is not None and stages.schedule.pairs():
+            pairs = stages.schedule.pairs()
+            at = self.index if self.index is not None else -1 if step > 0 else 0
+            i = (at + step) % len(pairs)
+            self.open(pairs[i], i)
+            self._go_to(float(stages.schedule.times[i]))
+
+    def set_replaced(self) -> None:
+        """Another set was opened: all its poses, and the same bigram if it has it, else F-Ah, the paper's example."""
+        curve_set = self._document.curve_set
+        self._visible, self._locked = set(curve_set.poses), set()
+        phones = curve_set.phonemes
+        wanted = [self.pair, ("f", "ah"), (phones[0], phones[0]) if phones else None]
+        pair = next((p for p in wanted if p is not None and curve_set.has_pair(p)), None)
+        self.pair = None
+        self.open(pair)
+
+    def _open_from_overlay(self, index: int, seconds: float, pose: str) -> None:
+        stages = self._session.stages
+        if stages is None:
+            return
+        self.open(stages.schedule.pairs()[index], index)
+        self.activate_pose(pose)
+        self._go_to(seconds)
+
+    def _open_weak(self, pair: Pair, seconds: float | None) -> None:
+        self.open(pair)
+        if seconds is not None:
+            self._go_to(seconds)
+
+    def _go_to(self, seconds: float) -> None:
+        if not self._preview.player.playing:
+            self._preview.scrub(seconds)
+
+    # ── show ─────────────────────────────────────────────────────────────────────────────────────
+
+    def show_curves(self) -> None:
+        """The open bigram's curves as the document has them."""
+        w, bigram = self._window, self._bigram
+        w.canvas.set_curves(bigram.curves)
+        w.pose_list.set_drawn(bigram.curves)
+        w.header.set_status(self._document.curve_set.status_of(self.pair) if self.pair is not None else "")
+        self.show_place()
+
+    def show_place(self) -> None:
+        """Where the sentence has the open bigram, and what the pipeline makes of it there."""
+        w, stages = self._window, self._session.stages
+        pairs = stages.schedule.pairs() if stages is not None else []
+        if self.index is None or self.index >= len(pairs) or pairs[self.index] != self.pair:
+            self.index = self._first_index()
+        w.stage_panel.set_current(self.index, self.pair)
+        w.header.set_usage(pairs.count(self.pair) if stages is not None and self.pair is not None else None)
+        w.header.set_example(self._word())
+        span = self.span()
+        if stages is None or span is None:
+            w.canvas.set_played(None)
+            w.canvas.set_boundary(0.5)
+            return
+        start, middle, end = span
+        w.canvas.set_boundary((middle - start) / (end - start))
+        played = {}
+        for pose in stages.poses:
+            track = stages.magenta[pose]
+            inside = (track.t > start) & (track.t < end)
+            t = np.concatenate(([start], track.t[inside], [end]))
+            v = track.at(t)
+            if v.any():
+                played[pose] = ((t - start) / (end - start), v)
+        w.canvas.set_played(played)
+
+    def show_playhead(self, seconds: float) -> None:
+        """The sentence's time in the canvas, while it is within the open bigram."""
+        span = self.span()
+        if span is None or not span[0] <= seconds <= span[2]:
+            self._window.canvas.set_playhead(None)
+        else:
+            self._window.canvas.set_playhead((seconds - span[0]) / (span[2] - span[0]))
+
+    def span(self) -> tuple[float, float, float] | None:
+        """Start, boundary and end of the open bigram in the sentence, seconds; None when it is not there."""
+        stages = self._session.stages
+        if stages is None or self.index is None or self.index + 2 >= stages.schedule.times.size:
+            return None
+        start, middle, end = stages.schedule.times[self.index : self.index + 3].tolist()
+        return start, middle, end
+
+    @property
+    def _bigram(self) -> Bigram:
+        nothing = Bigram()
+        return self._document.curve_set.bigrams.get(self.pair, nothing) if self.pair is not None else nothing
+
+    def _first_index(self) -> int | None:
+        stages = self._session.stages
+        pairs = stages.schedule.pairs() if stages is not None else []
+        return pairs.index(self.pair) if self.pair in pairs else None
+
+    def _word(self) -> str:
+        """The word of the sentence in which the open bigram sounds."""
+        utterance, span = self._session.utterance, self.span()
+        if utterance is None or span is None:
+            return ""
+        return next((word.text for word in utterance.words if word.start <= span[1] <= word.end), "")
+
+    # ── edit ─────────────────────────────────────────────────────────────────────────────────────
+
+    def _gesture(self, curves: Mapping[str, Curve]) -> None:
+        """While a key is dragged, overlay and face follow; the document does not change yet."""
+        if self.pair is None:
+            return
+        self._session.set_preview(self.pair, curves)
+        if self._preview.player.playing or self._preview.bigram_player.playing:
+            return
+        keys = [(pose, i) for pose, i in self._window.canvas.selection if pose in curves and i < len(curves[pose])]
+        if not keys:
+            return
+        pose, i = min(keys)
+        s, span = float(curves[pose].t[i]), self.span()
+        if span is not None:
+            self._preview.scrub(span[0] + s * (span[2] - span[0]))
+        else:
+            self._preview.show_bigram(s)
+
+    def _gesture_cancelled(self) -> None:
+        if self.pair is not None:
+            self._session.set_preview(self.pair, None)
+
+    def _edited(self, curves: Mapping[str, Curve | None], label: str) -> None:
+        if self.pair is None:
+            return
+        try:
+            self._document.edit_curves(self.pair, curves, label)
+        except UserError as error:
+            self._gesture_cancelled()
+            self.show_curves()
+            self._window.hint_label.setText(str(error))
+
+    # ── poses ────────────────────────────────────────────────────────────────────────────────────
+
+    def activate_pose(self, pose: str) -> None:
+        """The pose that is edited, in canvas, list and overlay."""
+        self._window.canvas.set_active(pose)
+        self._window.pose_list.set_active(pose)
+        self._window.stage_panel.set_active_pose(pose)
+
+    def _activate_drawn_pose(self) -> None:
+        """A bigram opens with a pose that it moves: the present one if it can be, else the strongest."""
+        curves, poses = self._bigram.curves, self._document.curve_set.poses
+        drawn = [pose for pose in poses if pose in curves]
+        active = self._window.canvas.active
+        if drawn and active not in drawn:
+            self.activate_pose(max(drawn, key=lambda pose: curves[pose].v.max()))
+        elif active in poses:
+            self.activate_pose(active)
+        elif poses:
+            self.activate_pose(poses[0])
+
+    def _visibility_changed(self, pose: str, visible: bool) -> None:
+        (self._visible.add if visible else self._visible.discard)(pose)
+        self._window.pose_list.set_visible_poses(self._visible)
+        self._window.canvas.set_visible_poses(self._visible)
+
+    def _lock_changed(self, pose: str, locked: bool) -> None:
+        (self._locked.add if locked else self._locked.discard)(pose)
+        self._window.pose_list.set_locked(self._locked)
+        self._window.canvas.set_locked(self._locked)

@@ -1,0 +1,32 @@
+"""The parts of a running editor, handed as one to whoever joins them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..document import Document
+from ..faces import Faces
+from ..file_actions import FileActions
+from ..main_window import MainWindow
+from ..preview import Preview
+from ..session import Session
+from ..settings import ViewState
+from ..speech_worker import SpeechWorker
+
+
+@dataclass(frozen=True, eq=False)
+class Parts:
+    """Everything that wiring connects.
+
+    speech  speaks the sentence; search speaks a word typed into the picker's search
+    """
+
+    document: Document
+    session: Session
+    window: MainWindow
+    preview: Preview
+    faces: Faces
+    files: FileActions
+    state: ViewState
+    speech: SpeechWorker
+    search: SpeechWorker

@@ -1,0 +1,292 @@
+"""The only place, with its neighbours, where wishes become commands and values reach the views.
+
+open_bigram.py has the canvas and what belongs to it, sentence.py the sentence and its transport,
+character.py the face, mapping.py what makes its poses; here is the rest: the document's news, the pipeline's
+results, settings, search, menus.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PySide6.QtCore import QObject, QTimer
+from PySide6.QtWidgets import QMessageBox
+
+from core_pipeline.diagnose import Weakness, weak_bigrams
+from core_pipeline.errors import UserError
+from core_pipeline.phonemes import SILENCE, Pair, pair_name
+from core_pipeline.pipeline import Stages
+from core_pipeline.poses import MEANING
+from core_pipeline.settings import Settings
+from core_pipeline.speech.utterance import Utterance
+from widgets.picker.weak_list import WeakRow
+
+from ..preview import BIGRAM_SECONDS
+from .character import Character
+from .mapping import Mapping
+from .open_bigram import OpenBigram
+from .parts import Parts
+from .sentence import RATE, VOICE, Sentence
+
+#: What may lag a moment behind a drag does so for this long.
+LATE_MS = 120
+
+
+class Wiring(QObject):
+    """Joins the parts of an editor."""
+
+    def __init__(self, parts: Parts, parent: QObject) -> None:
+        super().__init__(parent)
+        self._document = parts.document
+        self._session = parts.session
+        self._preview = parts.preview
+        self._window = parts.window
+        self._files = parts.files
+        self._state = parts.state
+        self._search = parts.search
+        self._statuses: dict[Pair, str] = {}
+        self._late = QTimer(self)
+        self._late.setSingleShot(True)
+        self._late.setInterval(LATE_MS)
+        self._late.timeout.connect(self._show_weak)
+        self.bigram = OpenBigram(parts, self)
+        self.sentence = Sentence(parts, self)
+        self.character = Character(parts, self)
+        self.mapping = Mapping(parts, self)
+        self._connect_document()
+        self._connect_views()
+        self._connect_menu()
+        self._set_replaced()
+        self._show_file()
+        self._window.bigram_transport.set_length(BIGRAM_SECONDS)
+        self._window.canvas.setFocus()
+        self._window.may_close = self._may_close
+
+    # ── connections ──────────────────────────────────────────────────────────────────────────────
+
+    def _connect_document(self) -> None:
+        self._document.bigram_changed.connect(self._bigram_changed)
+        self._document.settings_changed.connect(self._settings_changed)
+        self._document.replaced.connect(self._set_replaced)
+        self._document.file_changed.connect(self._show_file)
+        self._session.stages_changed.connect(self._stages_changed)
+        self._files.autosave.failed.connect(self._window.hint_label.setText)
+        self._files.autosave.saved.connect(self._show_saved)
+
+    def _connect_views(self) -> None:
+        w, preview = self._window, self._preview
+        w.canvas.selection_changed.connect(w.selection_label.setText)
+        w.canvas.hint_changed.connect(w.hint_label.setText)
+        w.canvas.play_wanted.connect(preview.toggle_bigram)
+        w.header.snap_toggled.connect(w.canvas.set_snap)
+        w.header.frame_all_wanted.connect(w.canvas.frame_all)
+        w.bigram_transport.play_toggled.connect(preview.toggle_bigram)
+        w.bigram_transport.length_changed.connect(preview.set_bigram_length)
+        w.settings_panel.settings_changed.connect(self._settings_wanted)
+        w.picker.search_wanted.connect(lambda text: self._search.request(text, VOICE, RATE))
+        self._search.spoken.connect(self._word_found)
+        self._search.failed.connect(self._word_not_found)
+        preview.bigram_player.playing_changed.connect(w.bigram_transport.set_playing)
+        preview.sentence_moment.connect(self._sentence_moment)
+        preview.weights_changed.connect(w.weights.set_weights)
+        preview.bigram_moment.connect(w.canvas.set_playhead)
+
+    def _connect_menu(self) -> None:
+        a, w = self._window.actions_, self._window
+        for action, act in (
+            (a.new, self._files.new),
+            (a.new_empty, self._files.new_empty),
+            (a.open, self._files.ask_open),
+            (a.save, self._files.save),
+            (a.save_as, self._files.ask_save_as),
+            (a.export, self._files.ask_export),
+            (a.export_weights, self._files.ask_export_weights),
+            (a.quit, w.close),
+            (a.find, w.picker.search.setFocus),
+            (a.sentence, w.sentence_bar.field.setFocus),
+            (a.swapped, self.bigram.open_swapped),
+            (a.next_bigram, self.bigram.open_next),
+            (a.previous_bigram, lambda: self.bigram.open_next(-1)),
+            (a.play, self._preview.toggle_sentence),
+            (a.play_bigram, self._preview.toggle_bigram),
+            (a.to_start, self.sentence.to_start),
+            (a.reset_view, self._preview.reset_view),
+            (a.default_layout, w.default_layout),
+            (a.about, self._about),
+        ):
+            action.triggered.connect(lambda _=False, act=act: act())
+        a.loop.toggled.connect(self.sentence.set_loop)
+        a.keymaps.triggered.connect(lambda action: w.canvas.set_keymap(action.data()))
+        a.safe_colours.toggled.connect(w.stage_panel.set_palette_safe)
+        w.play_wanted.connect(self._preview.toggle_sentence)
+        w.dropped.connect(self._open_dropped)
+
+    # ── document → views ─────────────────────────────────────────────────────────────────────────
+
+    def _set_replaced(self) -> None:
+        curve_set, w = self._document.curve_set, self._window
+        w.picker.set_phonemes(curve_set.phonemes)
+        w.pose_list.set_poses(curve_set.poses, {p: MEANING[p] for p in curve_set.poses if p in MEANING})
+        w.canvas.set_poses(curve_set.poses)
+        w.weights.set_poses(curve_set.poses)
+        self._session.set_curve_set(curve_set)
+        self._show_settings()
+        self._statuses = {(a, b): curve_set.status_of((a, b)) for a in curve_set.phonemes for b in curve_set.phonemes}
+        self._show_statuses()
+        self.bigram.set_replaced()
+        self.character.set_poses(curve_set.poses)
+
+    def _bigram_changed(self, pair: Pair) -> None:
+        curve_set = self._document.curve_set
+        self._session.set_curve_set(curve_set)
+        self._statuses[pair] = curve_set.status_of(pair)
+        self._show_statuses()
+        if pair == self.bigram.pair:
+            self.bigram.show_curves()
+        else:
+            self.bigram.open(pair)  # undo reached another bigram: show what it did
+
+    def _settings_changed(self) -> None:
+        self._session.set_curve_set(self._document.curve_set)
+        self._show_settings()
+
+    def _settings_wanted(self, settings: Settings, label: str) -> None:
+        try:
+            self._document.change_settings(settings, label)
+        except UserError as error:
+            self._show_settings()
+            self._window.hint_label.setText(str(error))
+
+    def _show_settings(self) -> None:
+        curve_set = self._document.curve_set
+        settings = curve_set.effective_settings
+        self._window.settings_panel.set_settings(settings, curve_set.poses)
+        self._window.canvas.set_spline(settings.spline)
+
+    def _show_statuses(self) -> None:
+        total = len(self._document.curve_set.phonemes) ** 2
+        drawn = sum(status != "empty" for pair, status in self._statuses.items() if SILENCE not in pair)
+        self._window.picker.set_statuses(self._statuses)
+        self._window.picker.set_coverage(self.tr("{0} of {1} bigrams").format(drawn, total), drawn / max(total, 1))
+
+    def _show_file(self) -> None:
+        document, w = self._document, self._window
+        w.setWindowTitle(f"{document.title}[*] — Lipstitch")
+        w.setWindowModified(document.is_dirty)
+        if document.read_only_reason:
+            text = self.tr("read-only")
+        elif document.is_dirty:
+            text = self.tr("unsaved changes")
+        else:
+            text = self.tr("saved") if document.path is not None else self.tr("no changes")
+        w.saved_label.setText(text)
+
+    def _show_saved(self) -> None:
+        if self._document.is_dirty:
+            self._window.saved_label.setText(self.tr("unsaved changes · recovery copy kept"))
+
+    # ── pipeline → views ─────────────────────────────────────────────────────────────────────────
+
+    def _stages_changed(self, stages: Stages | None) -> None:
+        w, utterance = self._window, self._session.utterance
+        w.stage_panel.set_stages(stages)
+        w.stage_panel.set_source_phones(utterance.schedule.phones if utterance is not None else None)
+        self.bigram.show_place()
+        if not self._late.isActive():
+            self._late.start()
+        if stages is None:
+            w.timing_label.setText("")
+            w.missing_label.setText("")
+            return
+        w.timing_label.setText(self.tr("pipeline {0:.1f} ms").format(self._session.pipeline_ms))
+        names = ", ".join(pair_name(pair) for pair in stages.missing)
+        w.missing_label.setText(self.tr("{0} missing").format(len(stages.missing)) if names else "")
+        w.missing_label.setToolTip(names)
+
+    def _show_weak(self) -> None:
+        w, stages = self._window, self._session.stages
+        weak = weak_bigrams(stages, self._session.curve_set) if stages is not None else []
+        w.weak_list.set_rows([WeakRow(x.pair, self._why(x), x.time, x.uses, x.severity > 0.2) for x in weak])
+        w.picker.set_weak({x.pair: self._why(x) for x in weak if x.severity > 0.2})
+        w.picker.set_used(self._session.used())
+
+    def _why(self, weakness: Weakness) -> str:
+        if weakness.kind == "slowed":
+            return self.tr("{0}: {1} % lost to the speed limit").format(weakness.pose, round(100 * weakness.amount))
+        return {
+            "missing": self.tr("missing"),
+            "flat": self.tr("no curve rises"),
+            "unreviewed": self.tr("not reviewed yet"),
+        }[weakness.kind]
+
+    def _sentence_moment(self, seconds: float) -> None:
+        w = self._window
+        w.transport.set_time(seconds, self._preview.player.duration)
+        w.stage_panel.set_playhead(seconds)
+        if not self._preview.shows_bigram:
+            self.bigram.show_playhead(seconds)
+
+    # ── search ───────────────────────────────────────────────────────────────────────────────────
+
+    def _word_found(self, utterance: Utterance) -> None:
+        curve_set = self._document.curve_set
+        schedule = utterance.schedule.mapped(curve_set.phonemes, curve_set.phoneme_map)
+        self._window.picker.set_matches([p for p in schedule.pairs() if SILENCE not in p and curve_set.has_pair(p)])
+
+    def _word_not_found(self, reason: str) -> None:
+        self._window.picker.set_matches([])
+        self._window.hint_label.setText(reason)
+
+    # ── the window ───────────────────────────────────────────────────────────────────────────────
+
+    def _open_dropped(self, path: Path) -> None:
+        """A curve set, or else a face."""
+        if path.suffix.lower() != ".json":
+            self.character.open(path)
+        elif self._files.may_discard():
+            self._files.open(path)
+
+    def _about(self) -> None:
+        QMessageBox.about(
+            self._window,
+            self.tr("About Lipstitch"),
+            self.tr(
+                "Lipstitch edits the curves of phone bigrams for lip sync.\n\n"
+                "The method is that of Xu, Feng, Marsella and Shapiro, "
+                "“A Practical and Configurable Lip Sync Method for Games”, Motion in Games 2013."
+            ),
+        )
+
+    def _may_close(self) -> bool:
+        if not self._files.may_discard() or not self.mapping.may_close():
+            return False
+        self._files.autosave.clear()
+        return True
+
+    def restore(self) -> None:
+        """Bring back last time's layout."""
+        state, w = self._state, self._window
+        w.restore_layout(state.layout("geometry"), state.layout("docks"))
+        w.actions_.safe_colours.setChecked(state.flag("safe colours", False))
+        for action in w.actions_.keymaps.actions():
+            if action.data() == state.text("keymap", "neutral"):
+                action.trigger()
+        self.character.restore()
+        self.sentence.set_loop(state.flag("loop", True))
+        w.transport.set_speed(state.number("speed", 1.0))
+        self._preview.player.set_speed(state.number("speed", 1.0))
+
+    def remember(self) -> None:
+        """Keep this time's layout."""
+        state, w, player = self._state, self._window, self._preview.player
+        self.character.remember()
+        self.mapping.close()
+        state.put("geometry", w.saveGeometry())
+        state.put("docks", w.saveState())
+        state.put("sentence", w.sentence_bar.sentence)
+        keymap = w.actions_.keymaps.checkedAction()
+        state.put("keymap", keymap.data() if keymap is not None else "neutral")
+        state.put("safe colours", w.actions_.safe_colours.isChecked())
+        state.put("loop", player.looping)
+        state.put("speed", player.speed)
+        self._late.stop()

@@ -1,0 +1,135 @@
+"""The line above the canvas: which bigram is open, in what word, how often used, and a few switches."""
+
+from __future__ import annotations
+
+from html import escape
+
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QToolButton, QWidget
+
+from .. import theme
+
+_GAP = "\u2002·\u2002"
+
+
+class CanvasHeader(QWidget):
+    """“F – Ah  as in “fat” · used 2× in this sentence · draft”, a snap switch and a button to frame all.
+
+    Where there is no room the example goes first, then the use; the tooltip always has the whole line.
+    """
+
+    snap_toggled = Signal(bool)
+    frame_all_wanted = Signal()
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._pair = ("", "")
+        self._word, self._span = "", (0, 0)
+        self._used: int | None = None
+        self._status = ""
+        self._title = QLabel()
+        self._title.setFont(theme.font(15, bold=True))
+        self._title.setAccessibleName(self.tr("Open bigram"))
+        self._detail = QLabel()
+        self._detail.setTextFormat(Qt.TextFormat.RichText)
+        self._detail.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self._detail.setAccessibleName(self.tr("About this bigram"))
+        palette = self._detail.palette()
+        palette.setColor(palette.ColorRole.WindowText, theme.MUTED)
+        self._detail.setPalette(palette)
+        self._snap = self._button("magnet", self.tr("Snap to the grid; Ctrl while dragging does the opposite"))
+        self._snap.setCheckable(True)
+        self._snap.setAccessibleName(self.tr("Snap to the grid"))
+        self._snap.clicked.connect(self.snap_toggled)
+        self._frame = self._button("arrow-expand-all", self.tr("Frame all (Home)"))
+        self._frame.clicked.connect(self.frame_all_wanted)
+        layout = self._layout = QHBoxLayout(self)
+        layout.setContentsMargins(12, 5, 8, 5)
+        layout.setSpacing(4)
+        layout.addWidget(self._title)
+        layout.addSpacing(8)
+        layout.addWidget(self._detail, 1)
+        layout.addWidget(self._snap)
+        layout.addWidget(self._frame)
+
+    def _button(self, icon: str, tip: str) -> QToolButton:
+        button = QToolButton()
+        button.setIcon(theme.icon(icon))
+        button.setIconSize(QSize(18, 18))
+        button.setToolTip(tip)
+        button.setAccessibleName(tip)
+        return button
+
+    def set_bigram(self, first: str, second: str) -> None:
+        """The open bigram's phones; "" twice for none."""
+        self._pair = (first, second)
+        self._title.setText(f"{first.capitalize()} – {second.capitalize()}" if first or second else "")
+        self._show()
+
+    def set_example(self, word: str, span: tuple[int, int] = (0, 0)) -> None:
+        """A word with this bigram, "" for none; the letters from span[0] to before span[1] are highlighted."""
+        self._word, self._span = word, span
+        self._show()
+
+    def set_usage(self, count: int | None) -> None:
+        """How often the sentence uses the bigram; None when there is no sentence."""
+        self._used = count
+        self._show()
+
+    def set_status(self, status: str) -> None:
+        """How far the work has come, as a word to show."""
+        self._status = status
+        self._show()
+
+    def set_snap(self, on: bool) -> None:
+        """Whether keys keep to the grid."""
+        self._snap.setChecked(on)
+
+    @property
+    def text(self) -> str:
+        """The whole line without markup."""
+        return " · ".join(part for part in (self._title.text(), *(plain for plain, _ in self._parts())) if part)
+
+    @property
+    def detail(self) -> str:
+        """What stands behind the title now, with markup."""
+        return self._detail.text()
+
+    @property
+    def buttons(self) -> tuple[QToolButton, ...]:
+        """The switches, from the left."""
+        return self._snap, self._frame
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Fits the line."""
+        super().resizeEvent(event)
+        self._show()
+
+    def _parts(self) -> list[tuple[str, str]]:
+        """(plain, rich) text of each part that has something to say: example, use, status."""
+        parts = []
+        if self._word:
+            start, end = self._span
+            before, letters, after = (escape(s) for s in (self._word[:start], self._word[start:end], self._word[end:]))
+            marked = f'{before}<b style="color:{theme.HIGHLIGHT.name()}">{letters}</b>{after}'
+            frame = self.tr("as in “{0}”")
+            parts.append((frame.format(self._word), frame.format(marked)))
+        if self._used is not None:
+            used = self.tr("used {0}× in this sentence").format(self._used)
+            used = used if self._used else self.tr("not in this sentence")
+            parts.append((used, escape(used)))
+        if self._status:
+            parts.append((self._status, escape(self._status)))
+        return parts
+
+    def _show(self) -> None:
+        parts = self._parts()
+        self.setToolTip(self.text)
+        self._detail.setAccessibleDescription(self.text)
+        self._layout.activate()
+        room = self._detail.width() - 8
+        metrics = self._detail.fontMetrics()
+        while parts and metrics.horizontalAdvance(_GAP.join(plain for plain, _ in parts)) > room:
+            parts.pop(0)
+        self._detail.setText(_GAP.join(rich for _, rich in parts))

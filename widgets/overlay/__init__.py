@@ -1,0 +1,1 @@
+"""What the pipeline made of the sentence, stage by stage."""

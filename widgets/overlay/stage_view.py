@@ -1,0 +1,319 @@
+"""What the stage overlay shows: a row per pose on one time axis, the black rows below, the playhead.
+
+Each row is a cached pixmap, redrawn only when its lines changed; the rows are composed into one sheet,
+so that moving the playhead copies two narrow strips of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from PySide6.QtCore import QPointF, QRect, QRectF, Qt
+from PySide6.QtGui import QPainter, QPaintEvent, QPen, QPixmap, QResizeEvent
+from PySide6.QtWidgets import QWidget
+
+from core_pipeline.phonemes import Pair
+from core_pipeline.pipeline import Stages
+
+from . import stage_backdrop as backdrop
+from .. import theme
+from .stage_footer import ROW, Footer
+from .stage_layers import LAYERS, RowPlace, draw_ghost, draw_origin
+from .stage_lines import Line, PoseLines, pose_lines
+from .stage_picking import Reading, curve_of
+from .stage_rows import MODES, Row, lay_out
+from .time_axis import TimeAxis
+
+#: Pixels right of the axis.
+_RIGHT = 10
+
+
+class StageView(QWidget):
+    """Draws stages; takes values by set_… methods. Its child StageOverlay adds the hand."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self.setMinimumHeight(120)
+        self._stages: Stages | None = None
+        self._lines: dict[str, PoseLines] = {}
+        self._ghost: dict[str, PoseLines] = {}
+        self._sources: tuple[str, ...] = ()
+        self._active = ""
+        self._index: int | None = None
+        self._pair: Pair | None = None
+        self._playhead = 0.0
+        self._following = False
+        self._loop: tuple[float, float] | None = None
+        self._mode = MODES[0]
+        self._styles = theme.STAGE_STYLES
+        self._shown = frozenset(layer.name for layer in LAYERS if layer.default_on)
+        self._reading: Reading | None = None
+        self._names = backdrop.RowNames()
+        self._footer = Footer()
+        self._axis = TimeAxis()
+        self._rows: tuple[Row, ...] = ()
+        self._row_pixmaps: dict[str, tuple[object, QPixmap]] = {}
+        self._sheet: QPixmap | None = None
+
+    # Values come down
+
+    def set_stages(self, stages: Stages | None) -> None:
+        """Show another result; only the rows that look different are drawn anew."""
+        before = self._lines
+        self._stages = stages if stages is not None and len(stages.schedule) else None
+        self._lines = {} if self._stages is None else pose_lines(self._stages)
+        for pose in [p for p in self._row_pixmaps if p not in self._lines or not self._lines[p].same_as(before.get(p))]:
+            del self._row_pixmaps[pose]
+        if self._stages is not None:
+            self._axis = self._axis.with_content(self._stages.schedule.start, self._stages.schedule.end)
+        self._lay_out()
+
+    def set_source_phones(self, phones: Sequence[str] | None) -> None:
+        """The language's phone for each phone of the schedule, such as "ae" for "ah"."""
+        self._sources = tuple(phones or ())
+        self._redraw()
+
+    def set_active_pose(self, pose: str) -> None:
+        """The pose whose row is tall."""
+        if pose != self._active:
+            self._active = pose
+            self._lay_out()
+
+    def set_current(self, index: int | None, pair: Pair | None = None) -> None:
+        """The open bigram: its number in the utterance, and its pair, of which every occurrence is tinted."""
+        if (index, pair) == (self._index, self._pair):
+            return
+        moved = index != self._index
+        self._index, self._pair = index, pair
+        span = self._span(index)
+        # One that is partly seen stays put: it may have been clicked right there.
+        if moved and span is not None and not self._following and not self._axis.shows_any(*span):
+            self._set_axis(self._axis.revealing(*span))
+        self._redraw()
+
+    def set_playhead(self, t: float) -> None:
+        """Seconds; costs two narrow strips, unless the view has to turn the page."""
+        old = self._strips()
+        self._playhead = t
+        if self._following:
+            self._set_axis(self._axis.following(t))
+        for strip in (*old, *self._strips()):
+            self.update(strip)
+
+    def set_following(self, on: bool) -> None:
+        """Whether the view turns the page with the playhead."""
+        self._following = on
+
+    def set_ghost(self, stages: Stages | None) -> None:
+        """Another result, whose final curves are drawn grey below; None for none."""
+        before, self._ghost = self._ghost, {} if stages is None else pose_lines(stages)
+        for pose in {*before, *self._ghost}:
+            now = self._ghost.get(pose)
+            if (now is None) != (pose not in before) or (now is not None and not now.same_as(before.get(pose))):
+                self._row_pixmaps.pop(pose, None)
+        self._redraw()
+
+    def set_loop_range(self, loop: tuple[float, float] | None) -> None:
+        """The part that is played in a loop, in seconds."""
+        if loop != self._loop:
+            self._loop = loop
+            self._redraw()
+
+    def set_palette_safe(self, safe: bool) -> None:
+        """Whether the stages have colours that remain apart without full colour vision."""
+        self._styles = theme.STAGE_STYLES_CVD if safe else theme.STAGE_STYLES
+        self._row_pixmaps.clear()
+        self._redraw()
+
+    def set_shown(self, names: Iterable[str]) -> None:
+        """Which layers are drawn, by their names."""
+        shown = frozenset(names)
+        if shown != self._shown:
+            self._shown = shown
+            self._row_pixmaps.clear()
+            self._redraw()
+
+    def set_mode(self, mode: str) -> None:
+        """One of stage_rows.MODES."""
+        if mode not in MODES:
+            raise ValueError(f"no view mode {mode!r}")
+        self._mode = mode
+        self._lay_out()
+
+    # What is seen
+
+    @property
+    def axis(self) -> TimeAxis:
+        """Seconds and pixels."""
+        return self._axis
+
+    @property
+    def rows(self) -> tuple[Row, ...]:
+        """The rows that have room."""
+        return self._rows
+
+    @property
+    def active_pose(self) -> str:
+        """The tall row; the first pose of the set where the wanted one is not in it."""
+        return self._active if self._active in self._lines else next(iter(self._lines), "")
+
+    def row_of(self, pose: str) -> Row | None:
+        """A pose's row; None when it has no room."""
+        return next((row for row in self._rows if row.pose == pose), None)
+
+    def row_pixmap(self, row: Row) -> QPixmap:
+        """The row's curves on transparent ground, from the cache if nothing changed."""
+        key = (row.height, row.active, row.idle, self._axis, self.width(), self.devicePixelRatioF())
+        cached = self._row_pixmaps.get(row.pose)
+        if cached is None or cached[0] != key:
+            cached = self._row_pixmaps[row.pose] = (key, self._drawn_row(row))
+        return cached[1]
+
+    @property
+    def rows_height(self) -> int:
+        """Pixels above the black rows."""
+        return self.height() - self.footer_rows * ROW
+
+    @property
+    def footer_rows(self) -> int:
+        """Time, Phoneme and Start; fewer where the overlay is very low."""
+        return 3 if self.height() >= 130 else 2
+
+    # Layout
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Qt's hook."""
+        super().resizeEvent(event)
+        self._lay_out()
+
+    def _lay_out(self) -> None:
+        peaks = {pose: lines.peak for pose, lines in self._lines.items()}
+        self._rows = lay_out(tuple(self._lines), self.active_pose, peaks, self._mode, self.rows_height)
+        gutter = self._names.width([*self._lines, *(title + "  +9" for title in self._footer.titles(3))])
+        self._axis = self._axis.with_pixels(float(min(gutter, self.width() // 3)), float(self.width() - _RIGHT))
+        self._redraw()
+
+    def _set_axis(self, axis: TimeAxis) -> None:
+        if axis != self._axis:
+            self._axis = axis
+            self._redraw()
+
+    def _redraw(self) -> None:
+        self._sheet = None
+        self.update()
+
+    def _span(self, index: int | None) -> tuple[float, float] | None:
+        """Seconds of bigram `index`; None where this utterance has no such bigram."""
+        if self._stages is None or index is None or not 0 <= index < len(self._stages.schedule) - 1:
+            return None
+        times = self._stages.schedule.times
+        return float(times[index]), float(times[index + 2])
+
+    def _strips(self) -> tuple[QRect, ...]:
+        """Where the playhead is painted."""
+        if self._stages is None or not self._axis.sees(self._playhead):
+            return ()
+        x = round(self._axis.px(self._playhead))
+        return QRect(x - 1, 0, 3, self.height()), QRect(x - 5, 0, 11, 8)
+
+    # Painting
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Qt's hook: copies the sheet, then paints what moves."""
+        painter = QPainter(self)
+        if self._stages is None:
+            text = self.tr("Type a sentence above to see what the pipeline makes of your curves")
+            backdrop.draw_hint(painter, self.rect(), text)
+        else:
+            if self._sheet is None:
+                self._sheet = self._composed(self._stages)
+            painter.drawPixmap(0, 0, self._sheet)
+            self._paint_reading(painter, self._stages)
+            backdrop.draw_playhead(painter, self._axis, self._playhead, self.height())
+        if self.hasFocus():
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+            painter.setPen(QPen(theme.ACCENT, 1))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.drawRect(self.rect().adjusted(0, 0, -1, -1))
+        painter.end()
+
+    def _paint_reading(self, painter: QPainter, stages: Stages) -> None:
+        """Under the mouse: the curve that made this place, and the final weight."""
+        reading = self._reading
+        row = None if reading is None else self.row_of(reading.pose)
+        if reading is None or row is None:
+            return
+        place = self._place(row)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
+        painter.setClipRect(QRectF(self._axis.x0 - 2, row.top, self._axis.x1 - self._axis.x0 + 4, row.height))
+        curve = None if reading.index is None else curve_of(stages, reading.index, reading.pose)
+        if curve is not None:
+            draw_origin(painter, place, Line(curve.t, curve.v), self._styles["red"])
+        at = QPointF(self._axis.px(reading.time), place.base - place.tall * reading.values[-1])
+        painter.setPen(QPen(theme.BACKGROUND, 1))
+        painter.setBrush(theme.BRIGHT)
+        painter.drawEllipse(at, 3.2, 3.2)
+        painter.setClipping(False)
+
+    def _pixmap(self, height: int) -> QPixmap:
+        ratio = self.devicePixelRatioF()
+        pixmap = QPixmap(round(self.width() * ratio), round(height * ratio))
+        pixmap.setDevicePixelRatio(ratio)
+        return pixmap
+
+    def _composed(self, stages: Stages) -> QPixmap:
+        sheet = self._pixmap(self.height())
+        sheet.fill(theme.BACKGROUND)
+        painter = QPainter(sheet)
+        for row in self._rows[1::2]:
+            painter.fillRect(0, row.top, self.width(), row.height, backdrop.STRIPE)
+        axis, tall = self._axis, self.rows_height
+        wide = round(axis.x1 - axis.x0) + _RIGHT
+        painter.setClipRect(QRect(round(axis.x0) - 4, 0, wide + 4, tall))
+        span = self._span(self._index)
+        backdrop.draw_spans(painter, axis, stages.schedule, self._pair, span, tall)
+        backdrop.draw_boundaries(painter, axis, stages.schedule, tall)
+        painter.setClipping(False)
+        for row in self._rows:
+            painter.drawPixmap(0, row.top, self.row_pixmap(row))
+        if self._loop is not None:
+            backdrop.draw_loop(painter, axis, self._loop, tall + ROW)
+        box = QRect(0, tall, self.width(), self.height() - tall)
+        lit = frozenset() if span is None or self._index is None else frozenset((self._index, self._index + 1))
+        sources = self._sources if len(self._sources) == len(stages.schedule) else ()
+        self._footer.draw(painter, box, axis, stages, sources, lit, self._loop)
+        if hidden := len(self._lines) - len(self._rows) if self._mode != "one" else 0:
+            painter.setFont(self._names.small)
+            painter.setPen(theme.WEAK)
+            aside = QRect(0, tall, round(axis.x0) - 8, ROW - 1)
+            painter.drawText(aside, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight, f"+{hidden}")
+        painter.end()
+        return sheet
+
+    def _place(self, row: Row) -> RowPlace:
+        above = min(max(row.height // 10, 2), 8)
+        below = 3 if row.height < 40 else 5
+        return RowPlace(self._axis, row.bottom - below - 0.5, float(row.height - above - below))
+
+    def _drawn_row(self, row: Row) -> QPixmap:
+        pixmap = self._pixmap(row.height)
+        pixmap.fill(Qt.GlobalColor.transparent)
+        place, lines, axis = self._place(row), self._lines[row.pose], self._axis
+        painter = QPainter(pixmap)
+        self._names.draw(painter, row, axis.x0)
+        painter.translate(0, -row.top)
+        if not row.idle:
+            base = round(place.base + 0.5)
+            painter.fillRect(QRect(round(axis.x0), base, round(axis.x1 - axis.x0), 1), backdrop.BASE)
+        if row.height >= backdrop.SCALED:
+            self._names.draw_scale(painter, place)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
+        painter.setClipRect(QRectF(axis.x0 - 2, row.top, axis.x1 - axis.x0 + 4, row.height))
+        if (ghost := self._ghost.get(row.pose)) is not None:
+            draw_ghost(painter, place, ghost)
+        for layer in LAYERS:
+            if layer.name in self._shown:
+                layer.draw(painter, place, lines, self._styles[layer.name])
+        painter.end()
+        return pixmap

@@ -1,0 +1,1 @@
+"""The square of bigrams, and the list of the weak ones."""

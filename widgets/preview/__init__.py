@@ -1,0 +1,1 @@
+"""The face, the weights that move it, and how its poses are mixed."""

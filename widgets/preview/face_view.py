@@ -1,0 +1,257 @@
+"""The preview: shows frames of the face and turns the mouse into wishes for another view."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import (
+    QColor,
+    QFontMetricsF,
+    QImage,
+    QKeyEvent,
+    QLinearGradient,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QResizeEvent,
+    QWheelEvent,
+)
+from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QToolButton, QVBoxLayout, QWidget
+
+from .. import theme
+
+_KEY_STEP = 20.0  # pixels of drag that one press of an arrow key stands for
+_MARGIN = 8
+
+
+class FaceView(QWidget):
+    """Shows frames; emits what the mouse wants. Knows nothing of faces."""
+
+    orbited = Signal(float, float)
+    """Left drag or arrow keys: (dx, dy) in pixels of the widget, +y down."""
+
+    panned = Signal(float, float)
+    """Middle drag, Shift+left drag or Shift+arrow keys: (dx, dy) in pixels of the widget."""
+
+    zoomed = Signal(float)
+    """Wheel, + and -: steps, positive to come nearer."""
+
+    reset_wanted = Signal()
+    """Double click, Home or the button: the face's own view again."""
+
+    cutaway_wanted = Signal(bool)
+    """The other button or C: the near half of the head hidden, to see the tongue."""
+
+    retry_wanted = Signal()
+    """The button under a message."""
+
+    resized = Signal(int, int)
+    """The size a frame should have now, in device pixels."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setAccessibleName(self.tr("Face preview"))
+        self.setAccessibleDescription(self.tr("Drag to turn the face, turn the wheel to zoom, press Home to reset."))
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self.setMinimumSize(160, 160)
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self._image = QImage()
+        self._caption = ""
+        self._from: QPointF | None = None
+        self._told = QSize()
+
+        self._reset = self._button("camera-retake-outline", self.tr("Reset the view"), self.tr("Reset the view (Home)"))
+        self._reset.clicked.connect(self.reset_wanted)
+        self._cut = self._button("content-cut", self.tr("Cut-away"), self.tr("Cut the head open to see the tongue (C)"))
+        self._cut.setCheckable(True)
+        self._cut.clicked.connect(self.cutaway_wanted)
+
+        self._message = QLabel(self)
+        self._message.setWordWrap(True)
+        self._message.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self._message.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self._message.setAccessibleName(self.tr("Why there is no face"))
+        self._retry = QPushButton(self.tr("Try again"), self)
+        self._retry.setAccessibleName(self.tr("Try to draw the face again"))
+        self._retry.clicked.connect(self.retry_wanted)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(24, 24, 24, 24)
+        column.setSpacing(12)
+        column.addStretch()
+        column.addWidget(self._message)
+        column.addWidget(self._retry, 0, Qt.AlignmentFlag.AlignHCenter)
+        column.addStretch()
+        self._message.hide()
+        self._retry.hide()
+
+    def sizeHint(self) -> QSize:
+        """A square that a face fits well."""
+        return QSize(340, 340)
+
+    def set_frame(self, image: QImage) -> None:
+        """Show this picture, and no message any more. One of another shape than the widget is cropped to it."""
+        self._image = image
+        if not self._message.isHidden():
+            self.set_message("")
+        self.update()
+
+    def set_caption(self, caption: str) -> None:
+        """A small line in the corner, such as "Toon · 512 × 512 · 58 fps"."""
+        if caption != self._caption:
+            self._caption = caption
+            self.update()
+
+    def set_cutaway(self, cutaway: bool) -> None:
+        """Whether the head is shown cut open."""
+        self._cut.setChecked(cutaway)
+
+    def set_message(self, message: str, retry: bool = False) -> None:
+        """Say why there is no face, over the last frame; "" to say nothing. With `retry` a button offers it."""
+        self._message.setText(message)
+        self._message.setVisible(bool(message))
+        self._retry.setVisible(bool(message) and retry)
+        for button in (self._reset, self._cut):
+            button.setVisible(not message)
+        self.update()
+
+    def frame_size(self) -> QSize:
+        """The size a frame should have, in device pixels."""
+        ratio = self.devicePixelRatioF()
+        return QSize(max(round(self.width() * ratio), 1), max(round(self.height() * ratio), 1))
+
+    # ── Qt's events ──
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """The frame, pixel for pixel when it has the widget's size."""
+        painter = QPainter(self)
+        if self._image.isNull():
+            self._paint_backdrop(painter)
+        else:
+            source = self._cropped()
+            same = source.size().toSize() == self.frame_size()
+            painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, not same)
+            painter.drawImage(QRectF(self.rect()), self._image, source)
+        if not self._message.isHidden():
+            veil = theme.SUNKEN
+            painter.fillRect(self.rect(), veil if self._image.isNull() else _faded(veil, 200))
+        elif self._caption:
+            self._paint_caption(painter)
+        if self.hasFocus():
+            painter.setPen(theme.ACCENT)
+            painter.drawRect(QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Tell the new size, and keep the buttons in their corner."""
+        x = self.width() - _MARGIN // 2
+        for button in (self._reset, self._cut):
+            hint = button.sizeHint()
+            x -= hint.width()
+            button.setGeometry(x, _MARGIN // 2, hint.width(), hint.height())
+        self._tell_size()
+
+    def event(self, event: QEvent) -> bool:
+        """A screen of another density wants another frame."""
+        if event.type() == QEvent.Type.DevicePixelRatioChange:
+            self._tell_size()
+        return super().event(event)
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Begin a drag."""
+        if event.button() in (Qt.MouseButton.LeftButton, Qt.MouseButton.MiddleButton):
+            self._from = event.position()
+            self.setCursor(Qt.CursorShape.ClosedHandCursor)
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        """Every move of a drag is one wish."""
+        if self._from is None:
+            return
+        moved = event.position() - self._from
+        self._from = event.position()
+        shifted = bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
+        pan = shifted or not event.buttons() & Qt.MouseButton.LeftButton
+        (self.panned if pan else self.orbited).emit(moved.x(), moved.y())
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        """End the drag with the last button."""
+        if not event.buttons() & (Qt.MouseButton.LeftButton | Qt.MouseButton.MiddleButton):
+            self._from = None
+            self.unsetCursor()
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        """Back to the face's own view."""
+        if event.button() == Qt.MouseButton.LeftButton:
+            self.reset_wanted.emit()
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        """A notch is 120; touchpads send less at a time."""
+        if event.angleDelta().y():
+            self.zoomed.emit(event.angleDelta().y() / 120.0)
+        event.accept()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """What the mouse can, the keys can too."""
+        key = event.key()
+        turns = {
+            Qt.Key.Key_Left: (-_KEY_STEP, 0.0),
+            Qt.Key.Key_Right: (_KEY_STEP, 0.0),
+            Qt.Key.Key_Up: (0.0, -_KEY_STEP),
+            Qt.Key.Key_Down: (0.0, _KEY_STEP),
+        }
+        if key in turns:
+            pan = event.modifiers() & Qt.KeyboardModifier.ShiftModifier
+            (self.panned if pan else self.orbited).emit(*turns[Qt.Key(key)])
+        elif key in (Qt.Key.Key_Plus, Qt.Key.Key_Equal):
+            self.zoomed.emit(1.0)
+        elif key == Qt.Key.Key_Minus:
+            self.zoomed.emit(-1.0)
+        elif key == Qt.Key.Key_Home:
+            self.reset_wanted.emit()
+        elif key == Qt.Key.Key_C and not event.modifiers():
+            self._cut.click()
+        else:
+            super().keyPressEvent(event)
+
+    # ── building and painting ──
+
+    def _button(self, icon: str, name: str, tip: str) -> QToolButton:
+        button = QToolButton(self)
+        button.setIcon(theme.icon(icon, theme.MUTED))
+        button.setAutoRaise(True)
+        button.setAccessibleName(name)
+        button.setToolTip(tip)
+        return button
+
+    def _cropped(self) -> QRectF:
+        """The middle part of the frame that has the widget's shape."""
+        size = QSize(self.frame_size()).scaled(self._image.size(), Qt.AspectRatioMode.KeepAspectRatio)
+        x, y = (self._image.width() - size.width()) / 2, (self._image.height() - size.height()) / 2
+        return QRectF(x, y, size.width(), size.height())
+
+    def _paint_backdrop(self, painter: QPainter) -> None:
+        fall = QLinearGradient(0, 0, 0, self.height())
+        fall.setColorAt(0.0, theme.RAISED)
+        fall.setColorAt(1.0, theme.BACKGROUND)
+        painter.fillRect(self.rect(), fall)
+
+    def _paint_caption(self, painter: QPainter) -> None:
+        font = theme.font(8.0)
+        painter.setFont(font)
+        room = self._cut.x() - 2 * _MARGIN
+        metrics = QFontMetricsF(font)
+        text = metrics.elidedText(self._caption, Qt.TextElideMode.ElideRight, room)
+        place = QPointF(_MARGIN, _MARGIN + metrics.ascent())
+        painter.setPen(_faded(theme.SUNKEN, 170))
+        painter.drawText(place + QPointF(0, 1), text)
+        painter.setPen(theme.mix(theme.TEXT, theme.MUTED, 0.4))
+        painter.drawText(place, text)
+
+    def _tell_size(self) -> None:
+        if (size := self.frame_size()) != self._told:
+            self._told = size
+            self.resized.emit(size.width(), size.height())
+
+
+def _faded(colour: QColor, alpha: int) -> QColor:
+    faded = QColor(colour)
+    faded.setAlpha(alpha)
+    return faded
