@@ -82,11 +82,12 @@ def _by_title(query: str, choice: Choice) -> tuple[float, tuple[int, ...]] | Non
     if (own := fit(query, choice.title)) is not None:
         whole = query.strip().casefold() == choice.title.casefold()
         return own.score + (_EXACT if whole else 0.0), own.places
-    both = fit(query, f"{choice.group} {choice.title}")
-    if both is None:
+    # the group by a piece of its own, "vi docks": letters strewn over both would fit nearly anything
+    first, _, rest = query.strip().partition(" ")
+    group, title = fit(first, choice.group), fit(rest, choice.title)
+    if group is None or title is None:
         return None
-    offset = len(choice.group) + 1
-    return both.score + _BY_GROUP, tuple(place - offset for place in both.places if place >= offset)
+    return group.score + title.score + _BY_GROUP, title.places
 
 
 def _by_pieces(query: str, choice: Choice) -> tuple[float, tuple[int, ...]] | None:
