@@ -8,6 +8,7 @@ from pathlib import Path
 from core_pipeline.curve_set import STATUSES, CurveSet
 from core_pipeline.files import curve_set_json
 from core_pipeline.files.atomic import read_bytes
+from core_pipeline.files.curve_set_merge import open_conflicts
 from core_pipeline.files.json_text import shown
 from core_pipeline.phonemes import SILENCE, pair_name
 
@@ -16,11 +17,12 @@ def check(options: argparse.Namespace) -> int:
     """Counts and missing bigrams of a curve set, or one line per problem."""
     path: Path = options.file
     data = read_bytes(path, curve_set_json.MAX_BYTES, "curve set")
-    reading, problems = curve_set_json.examine(data, str(path))
+    reading, problems = curve_set_json.examine(data, str(path), path.parent)
     problems = [*problems, *(reading.repairs if reading is not None else ())]
     if reading is not None:
         for line in _summary(reading.curve_set):
             print(line)
+        problems += [f"{path}: {what} is undecided since a merge." for what in open_conflicts(reading.curve_set)]
         if reading.newer:
             problems.append(f"{path} was written by a newer Lipstitch; this one may misread it.")
     for line in problems:

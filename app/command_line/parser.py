@@ -9,6 +9,8 @@ from typing import NoReturn
 from core_pipeline.errors import UserError
 from core_pipeline.settings import PRESETS, SPLINES
 
+from . import curve_sets_parser
+
 _FACE = "toon, ada, man, woman, crab; or a .glb, .gltf or .vrm; or a folder of .obj poses"
 
 
@@ -64,6 +66,8 @@ def make_parser() -> Parser:
         "lipstitch check my-curves.json",
     )
     check.add_argument("file", type=Path, metavar="FILE", help="a curve set, .json")
+
+    curve_sets_parser.add(command)
 
     render = command(
         "render",
