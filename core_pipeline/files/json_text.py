@@ -50,7 +50,7 @@ def decode_json(data: bytes, place: str) -> dict[str, Any]:
 
 
 def decode_text(data: bytes, place: str) -> str:
-    """UTF-8 with or without BOM, or UTF-16 with BOM; UserError names the place."""
+    """The text of a file in UTF-8, with or without BOM, or UTF-16 with BOM; UserError when it is none."""
     encoding = "utf-8-sig"
     if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         encoding = "utf-16"
