@@ -138,10 +138,13 @@ COMMANDS: Mapping[str, Command] = {
     "convert": _in("command_line.curve_sets", "convert"),
     "diff": _in("command_line.curve_sets", "diff"),
     "merge": _in("command_line.curve_sets", "merge"),
+    "suggest": _in("command_line.suggest", "suggest"),
+    "stats": _in("command_line.stats", "stats"),
     "render": _in("command_line.clips", "render"),
     "face": _in("rigs", "tell_face"),
     "contact-sheet": _in("command_line.contact_sheet", "contact_sheet"),
     "screenshot": _screenshot,
     "build-faces": _in("command_line.build", "build_faces"),
     "build-curves": _in("command_line.build", "build_curves"),
+    "build-frequencies": _in("command_line.stats", "build_frequencies"),
 }
