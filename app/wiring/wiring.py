@@ -1,8 +1,8 @@
 """The only place, with its neighbours, where wishes become commands and values reach the views.
 
 open_bigram.py has the canvas and what belongs to it, sentence.py the sentence and its transport,
-character.py the face, mapping.py what makes its poses; here is the rest: the document's news, the pipeline's
-results, settings, search, menus.
+character.py the face, mapping.py what makes its poses, palette.py the command palette, keys.py keymaps and
+shortcuts; here is the rest: the document's news, the pipeline's results, settings, search, menus.
 """
 
 from __future__ import annotations
@@ -23,8 +23,10 @@ from widgets.picker.weak_list import WeakRow
 
 from ..preview import BIGRAM_SECONDS
 from .character import Character
+from .keys import KeysOfWindow
 from .mapping import Mapping
 from .open_bigram import OpenBigram
+from .palette import Palette
 from .parts import Parts
 from .sentence import RATE, VOICE, Sentence
 
@@ -53,6 +55,8 @@ class Wiring(QObject):
         self.sentence = Sentence(parts, self)
         self.character = Character(parts, self)
         self.mapping = Mapping(parts, self)
+        self.palette = Palette(parts, self.bigram, self.sentence, self)
+        self.keys = KeysOfWindow(parts, self)
         self._connect_document()
         self._connect_views()
         self._connect_menu()
@@ -116,7 +120,6 @@ class Wiring(QObject):
         ):
             action.triggered.connect(lambda _=False, act=act: act())
         a.loop.toggled.connect(self.sentence.set_loop)
-        a.keymaps.triggered.connect(lambda action: w.canvas.set_keymap(action.data()))
         a.safe_colours.toggled.connect(w.stage_panel.set_palette_safe)
         w.play_wanted.connect(self._preview.toggle_sentence)
         w.dropped.connect(self._open_dropped)
@@ -268,9 +271,7 @@ class Wiring(QObject):
         state, w = self._state, self._window
         w.restore_layout(state.layout("geometry"), state.layout("docks"))
         w.actions_.safe_colours.setChecked(state.flag("safe colours", False))
-        for action in w.actions_.keymaps.actions():
-            if action.data() == state.text("keymap", "neutral"):
-                action.trigger()
+        self.keys.restore()
         self.character.restore()
         self.sentence.set_loop(state.flag("loop", True))
         w.transport.set_speed(state.number("speed", 1.0))
@@ -284,8 +285,6 @@ class Wiring(QObject):
         state.put("geometry", w.saveGeometry())
         state.put("docks", w.saveState())
         state.put("sentence", w.sentence_bar.sentence)
-        keymap = w.actions_.keymaps.checkedAction()
-        state.put("keymap", keymap.data() if keymap is not None else "neutral")
         state.put("safe colours", w.actions_.safe_colours.isChecked())
         state.put("loop", player.looping)
         state.put("speed", player.speed)
