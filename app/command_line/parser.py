@@ -82,6 +82,9 @@ def make_parser() -> Parser:
     face = command("face", "say what a face is made of and which poses it can make", "lipstitch face head.glb")
     face.add_argument("face", metavar="FACE", help=_FACE)
     face.add_argument("--curves", type=Path, metavar="FILE", help="the curve set whose poses it shall make")
+    face.add_argument(
+        "--new-set", type=Path, metavar="FILE", help="write an empty curve set over the face's own shapes (.json)"
+    )
 
     sheet = command(
         "contact-sheet",

@@ -12,7 +12,7 @@ from core_pipeline.faces.retarget import normalised
 
 _FOV = 24.0
 #: Height of the picture in heights of what moves: brow to chin is about two thirds of a head.
-_AROUND = 0.9
+_AROUND = 0.75
 #: Vertices that move less than this part of the usual motion do not tell where the face is, nor do wild shapes.
 _MOVES, _WILD = 0.05, 10.0
 _LONGER = 1.1

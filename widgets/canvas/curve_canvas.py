@@ -51,12 +51,14 @@ class CurveCanvas(CurveCompare):
             "add": self.add_key,
             "delete": self.delete_selection,
             "reverse": self.reverse,
+            "mirror": self.mirror,
             "copy": self.copy,
             "cut": self.cut,
             "paste": self.paste,
             "paste_reversed": lambda: self.paste(backwards=True),
             "swap": self.swap,
             "slide": self.slide,
+            "duplicate": self.duplicate,
             "select_all": self.select_all,
             "select_none": lambda: self.select(()),
             "previous_key": lambda: self.select_next(-1),
@@ -187,6 +189,10 @@ class CurveCanvas(CurveCompare):
     def reverse(self) -> None:
         """Wishes the selection mirrored in time; without a selection the active curve."""
         self._do(self._control.reverse)
+
+    def mirror(self) -> None:
+        """Wishes the selection's weights turned upside down; without a selection the active curve's."""
+        self._do(self._control.mirror)
 
     def type_value(self, axis: str, text: str, keys: Mapping[str, list[int]] | None = None) -> None:
         """Wishes times ("t") or weights ("v") of the selection, or of `keys`, as typed: “.3”, “*0.5”, “+0.1”."""

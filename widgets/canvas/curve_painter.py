@@ -32,6 +32,7 @@ PIECE = 32
 
 _GHOST = theme.mix(theme.GHOST, theme.BACKGROUND, 0.85)
 _BOUNDARY = QColor("#4a5058")
+_MET = theme.mix(theme.HIGHLIGHT, theme.BACKGROUND, 0.5)
 _BOX = theme.mix(theme.LINK, theme.BACKGROUND, 0.7)
 
 
@@ -80,6 +81,7 @@ class CurveItem(pg.GraphicsObject):
         self._paint_played(painter)
         if drawn and drawn[0] == self.controller.active:
             self._paint_active(painter, drawn[0])
+        self._paint_met(painter, area)
         self._paint_box(painter)
         self._paint_selection(painter)
         self._paint_band(painter)
@@ -178,6 +180,20 @@ class CurveItem(pg.GraphicsObject):
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.setPen(QPen(theme.BRIGHT, 1))
             painter.drawEllipse(QPointF(x, y), 8.0, 8.0)
+
+    def _paint_met(self, painter: QPainter, area: QRectF) -> None:
+        """A line along every magnet that holds a dragged key."""
+        times, weights = self.controller.met()
+        if not times and not weights:
+            return
+        view = self.controller.view
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+        painter.setPen(_MET)
+        for t in times:
+            painter.drawLine(QLineF(round(view.x(t)), area.top(), round(view.x(t)), area.bottom()))
+        for v in weights:
+            painter.drawLine(QLineF(area.left(), round(view.y(v)), area.right(), round(view.y(v))))
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
 
     def _paint_box(self, painter: QPainter) -> None:
         control = self.controller
