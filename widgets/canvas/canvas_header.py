@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from html import escape
 
 from PySide6.QtCore import QT_TRANSLATE_NOOP, QSize, Qt, Signal, SignalInstance
@@ -31,7 +31,7 @@ _SPARE = ("reverse", "mirror", "copy", "paste", "duplicate", "slide")
 class CanvasHeader(QWidget):
     """“F – Ah  as in “fat” · used 2× in this sentence · draft”, two switches, and buttons for what keys do too.
 
-    Where there is no room some buttons go first, then the example, then the use; the tooltip always has the
+    Where there is no room some buttons go first, then words, the example, the use; the tooltip always has the
     whole line.
     """
 
@@ -146,7 +146,7 @@ class CanvasHeader(QWidget):
             self._actions[action].setVisible(event.size().width() >= ROOMY)
         self._show()
 
-    def _parts(self) -> list[tuple[str, str]]:
+    def _parts(self, *, short: bool = False) -> list[tuple[str, str]]:
         """(plain, rich) text of each part that has something to say: example, use, status."""
         parts = []
         if self._word:
@@ -156,20 +156,25 @@ class CanvasHeader(QWidget):
             frame = self.tr("as in “{0}”")
             parts.append((frame.format(self._word), frame.format(marked)))
         if self._used is not None:
-            used = self.tr("used {0}× in this sentence").format(self._used)
-            used = used if self._used else self.tr("not in this sentence")
+            used = self.tr("used {0}×") if short else self.tr("used {0}× in this sentence")
+            used = used.format(self._used) if self._used else self.tr("not in this sentence")
             parts.append((used, escape(used)))
         if self._status:
             parts.append((self._status, escape(self._status)))
         return parts
 
     def _show(self) -> None:
-        parts = self._parts()
         self.setToolTip(self.text)
         self._detail.setAccessibleDescription(self.text)
         self._layout.activate()
         room = self._detail.width() - 8
-        metrics = self._detail.fontMetrics()
-        while parts and metrics.horizontalAdvance(_GAP.join(plain for plain, _ in parts)) > room:
+        parts = self._parts()
+        if self._length(parts) > room:
+            parts = self._parts(short=True)
+        while parts and self._length(parts) > room:
             parts.pop(0)
         self._detail.setText(_GAP.join(rich for _, rich in parts))
+
+    def _length(self, parts: Sequence[tuple[str, str]]) -> int:
+        """Pixels of the line."""
+        return self._detail.fontMetrics().horizontalAdvance(_GAP.join(plain for plain, _ in parts))

@@ -256,10 +256,11 @@ class BigramGrid(QTableView):
 
     def _largest(self, width: int, height: int) -> QSize:
         count = max(len(self.pairs.phonemes), 1)
-        for tall in range(MAX_CELL, MIN_TALL - 1, -1):
-            wide = min((width - self._names(tall)) // count, _WIDER * tall)
-            if wide >= max(tall, MIN_CELL + 1) and self._head(wide) + count * tall <= height:
-                return QSize(wide, tall)
+        for narrower in range(3):  # wider cells may have taller names above them, which then have no room
+            for tall in range(MAX_CELL, MIN_TALL - 1, -1):
+                wide = min((width - self._names(tall)) // count, _WIDER * tall) - narrower
+                if wide >= max(tall, MIN_CELL + 1) and self._head(wide) + count * tall <= height:
+                    return QSize(wide, tall)
         room = width - self._names(MIN_TALL) - self.verticalScrollBar().sizeHint().width()
         wide = min(room // count, _WIDER * MIN_TALL)
         return QSize(max(wide, MIN_CELL), MIN_TALL)
