@@ -38,8 +38,9 @@ def head_camera(face: Face) -> Camera:
 
 
 def head_height(face: Face) -> float:
-    """Height of the head, in the mesh's unit: of all that stands around what moves."""
-    return float(np.ptp(_near(face, _moving(face))[:, 1]))
+    """Height of the head, in the mesh's unit: of all that stands around what moves, or of everything."""
+    moved = _moving(face)
+    return float(np.ptp((_near(face, moved) if moved.any() else face.positions)[:, 1]))
 
 
 def turned_upright(face: Face) -> tuple[Face, tuple[str, ...]]:
