@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from PySide6.QtCore import QObject, QTimer
-from PySide6.QtGui import QAction, QActionGroup
+from PySide6.QtGui import QActionGroup
 from PySide6.QtWidgets import QFileDialog
 
 from core_pipeline.faces.looks import ANGLES
@@ -33,7 +33,7 @@ class Character(QObject):
         self._caption.setInterval(CAPTION_MS)
         self._caption.timeout.connect(self._show_caption)
         self._caption.start()
-        self._group = QActionGroup(self)
+        self._group: QActionGroup = self._window.actions_.characters_menu.choice()
         self._connect()
         self._menu()
 
@@ -56,13 +56,10 @@ class Character(QObject):
     def _menu(self) -> None:
         actions, menu = self._window.actions_, self._window.actions_.characters_menu
         for folder in resources.characters():
-            action = QAction(folder.name.capitalize(), self._group, checkable=True)
+            action = menu.add(f"character.{folder.name}", folder.name.capitalize(), checked=False)
+            action.setActionGroup(self._group)
             action.setData(str(folder))
             action.triggered.connect(lambda _=False, folder=folder: self.open(folder))
-            menu.addAction(action)
-        menu.addSeparator()
-        menu.addAction(actions.open_face)
-        menu.addAction(actions.open_face_folder)
         actions.open_face.triggered.connect(self._ask_file)
         actions.open_face_folder.triggered.connect(self._ask_folder)
 

@@ -74,6 +74,21 @@ class OpenBigram(QObject):
             i = min(max(i, 0), len(stages.schedule) - 2)
             self.open(stages.schedule.pairs()[i], i)
 
+    def open_swapped(self) -> None:
+        """From a-b to b-a."""
+        if self.pair is not None:
+            self.open(self.pair[::-1])
+
+    def open_next(self, step: int = 1) -> None:
+        """The sentence's next bigram, or the previous one with step −1; from the end to the start."""
+        stages = self._session.stages
+        if stages is not None and stages.schedule.pairs():
+            pairs = stages.schedule.pairs()
+            at = self.index if self.index is not None else -1 if step > 0 else 0
+            i = (at + step) % len(pairs)
+            self.open(pairs[i], i)
+            self._go_to(float(stages.schedule.times[i]))
+
     def set_replaced(self) -> None:
         """Another set was opened: all its poses, and the same bigram if it has it, else F-Ah, the paper's example."""
         curve_set = self._document.curve_set

@@ -1,8 +1,8 @@
 """The only place, with its neighbours, where wishes become commands and values reach the views.
 
 open_bigram.py has the canvas and what belongs to it, sentence.py the sentence and its transport,
-character.py the face, mapping.py what makes its poses; here is the rest: the document's news, the pipeline's
-results, settings, search, menus.
+character.py the face, mapping.py what makes its poses, palette.py the command palette, keys.py keymaps and
+shortcuts; here is the rest: the document's news, the pipeline's results, settings, search, menus.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from pathlib import Path
 from PySide6.QtCore import QObject, QTimer
 from PySide6.QtWidgets import QMessageBox
 
-from core_pipeline.diagnose import Weakness, weak_bigrams
+from core_pipeline.diagnose import weak_bigrams
 from core_pipeline.errors import UserError
 from core_pipeline.phonemes import SILENCE, Pair, pair_name
 from core_pipeline.pipeline import Stages
@@ -23,8 +23,10 @@ from widgets.picker.weak_list import WeakRow
 
 from ..preview import BIGRAM_SECONDS
 from .character import Character
+from .keys import KeysOfWindow
 from .mapping import Mapping
 from .open_bigram import OpenBigram
+from .palette import Palette
 from .parts import Parts
 from .sentence import RATE, VOICE, Sentence
 
@@ -53,6 +55,8 @@ class Wiring(QObject):
         self.sentence = Sentence(parts, self)
         self.character = Character(parts, self)
         self.mapping = Mapping(parts, self)
+        self.palette = Palette(parts, self.bigram, self.sentence, self)
+        self.keys = KeysOfWindow(parts, self)
         self._connect_document()
         self._connect_views()
         self._connect_menu()
@@ -104,6 +108,9 @@ class Wiring(QObject):
             (a.quit, w.close),
             (a.find, w.picker.search.setFocus),
             (a.sentence, w.sentence_bar.field.setFocus),
+            (a.swapped, self.bigram.open_swapped),
+            (a.next_bigram, self.bigram.open_next),
+            (a.previous_bigram, lambda: self.bigram.open_next(-1)),
             (a.play, self._preview.toggle_sentence),
             (a.play_bigram, self._preview.toggle_bigram),
             (a.to_start, self.sentence.to_start),
@@ -113,7 +120,6 @@ class Wiring(QObject):
         ):
             action.triggered.connect(lambda _=False, act=act: act())
         a.loop.toggled.connect(self.sentence.set_loop)
-        a.keymaps.triggered.connect(lambda action: w.canvas.set_keymap(action.data()))
         a.safe_colours.toggled.connect(w.stage_panel.set_palette_safe)
         w.play_wanted.connect(self._preview.toggle_sentence)
         w.dropped.connect(self._open_dropped)
@@ -203,18 +209,9 @@ class Wiring(QObject):
     def _show_weak(self) -> None:
         w, stages = self._window, self._session.stages
         weak = weak_bigrams(stages, self._session.curve_set) if stages is not None else []
-        w.weak_list.set_rows([WeakRow(x.pair, self._why(x), x.time, x.uses, x.severity > 0.2) for x in weak])
-        w.picker.set_weak({x.pair: self._why(x) for x in weak if x.severity > 0.2})
+        w.weak_list.set_rows([WeakRow(x.pair, x.reason, x.worst.time, x.uses, not x.is_hint) for x in weak])
+        w.picker.set_weak({x.pair: x.reason for x in weak if not x.is_hint})
         w.picker.set_used(self._session.used())
-
-    def _why(self, weakness: Weakness) -> str:
-        if weakness.kind == "slowed":
-            return self.tr("{0}: {1} % lost to the speed limit").format(weakness.pose, round(100 * weakness.amount))
-        return {
-            "missing": self.tr("missing"),
-            "flat": self.tr("no curve rises"),
-            "unreviewed": self.tr("not reviewed yet"),
-        }[weakness.kind]
 
     def _sentence_moment(self, seconds: float) -> None:
         w = self._window
@@ -265,9 +262,7 @@ class Wiring(QObject):
         state, w = self._state, self._window
         w.restore_layout(state.layout("geometry"), state.layout("docks"))
         w.actions_.safe_colours.setChecked(state.flag("safe colours", False))
-        for action in w.actions_.keymaps.actions():
-            if action.data() == state.text("keymap", "neutral"):
-                action.trigger()
+        self.keys.restore()
         self.character.restore()
         self.sentence.set_loop(state.flag("loop", True))
         w.transport.set_speed(state.number("speed", 1.0))
@@ -281,8 +276,6 @@ class Wiring(QObject):
         state.put("geometry", w.saveGeometry())
         state.put("docks", w.saveState())
         state.put("sentence", w.sentence_bar.sentence)
-        keymap = w.actions_.keymaps.checkedAction()
-        state.put("keymap", keymap.data() if keymap is not None else "neutral")
         state.put("safe colours", w.actions_.safe_colours.isChecked())
         state.put("loop", player.looping)
         state.put("speed", player.speed)

@@ -150,6 +150,10 @@ class CurveCanvas(CurveCompare):
 
     # Single actions, also for menus
 
+    def act(self, action: str) -> None:
+        """Does what the key of a keymap's action does; KeyError when there is no such action."""
+        self._acts[action]()
+
     def select_all(self) -> None:
         """All keys of the active curve; once more: of every curve."""
         if not self.busy:
