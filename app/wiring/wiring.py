@@ -121,7 +121,7 @@ class Wiring(QObject):
             (a.play, self._preview.toggle_sentence),
             (a.play_bigram, self._preview.toggle_bigram),
             (a.to_start, self.sentence.to_start),
-            (a.reset_view, self._preview.reset_view),
+            (a.reset_view, w.face_view.reset_wanted.emit),
             (a.default_layout, w.default_layout),
             (a.about, self._about),
         ):
