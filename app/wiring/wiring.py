@@ -88,7 +88,7 @@ class Wiring(QObject):
         w.canvas.play_wanted.connect(preview.toggle_bigram)
         w.header.snap_toggled.connect(w.canvas.set_snap)
         w.header.polygon_toggled.connect(w.canvas.set_polygon)
-        w.header.action_wanted.connect(w.canvas.do)
+        w.header.action_wanted.connect(w.canvas.act)
         w.canvas.keys_changed.connect(w.header.set_keys)
         w.header.set_keys(w.canvas.keys)
         w.bigram_transport.play_toggled.connect(preview.toggle_bigram)
