@@ -6,6 +6,7 @@ short is passed over; everything before it counts.
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 from collections.abc import Collection, Iterator
@@ -50,14 +51,14 @@ def add(file: Path, curve_set: CurveSet, pairs: Collection[Pair]) -> None:
         line["settings"] = None
     data = json.dumps(line, ensure_ascii=False).encode() + b"\n"
     try:
-        with file.open("ab") as journal:
+        with file.open("ab", buffering=0) as journal:
             whole = journal.tell()
             try:
-                journal.write(data)
-                journal.flush()
+                if journal.write(data) < len(data):
+                    raise OSError(errno.ENOSPC, "")
                 os.fsync(journal.fileno())
             except OSError:
-                os.ftruncate(journal.fileno(), whole)  # half a line would spoil the next
+                journal.truncate(whole)  # half a line would spoil the next
                 raise
     except OSError as error:
         raise UserError(f"Cannot write {file}: {reason(error)}.") from error
@@ -91,7 +92,7 @@ def _lines(data: bytes) -> Iterator[dict[str, Any]]:
     for line in data.split(b"\n")[:-1]:
         try:
             value = json.loads(line)
-        except ValueError:
+        except (ValueError, RecursionError):
             return
         if not isinstance(value, dict):
             return

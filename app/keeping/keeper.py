@@ -1,4 +1,4 @@
-"""Watches over a document's file: backups before it is saved over, a lock while it is open, merges with others' work."""
+"""Watches over a document's file: backups before it is saved over, a lock while open, merges with others' work."""
 
 from __future__ import annotations
 

@@ -7,11 +7,12 @@ machine is dead.
 from __future__ import annotations
 
 import contextlib
-import json
 import os
 import socket
 from dataclasses import dataclass
 from pathlib import Path
+
+import msgspec
 
 from .processes import birth, is_running
 
@@ -46,26 +47,26 @@ class Lock:
 
     def owner(self) -> Owner | None:
         """Who else has the file open now; a stale or damaged lock counts as none."""
+        owner = self._read()
+        return None if owner is None or owner.is_gone or owner == Owner.me() else owner
+
+    def _read(self) -> Owner | None:
         try:
             with self._file.open("rb") as file:
-                value = json.loads(file.read(10_000))
-            owner = Owner(str(value["host"])[:200], int(value["pid"]), str(value.get("birth", "")))
-        except (OSError, ValueError, KeyError, TypeError, AttributeError):
+                return msgspec.json.decode(file.read(10_000), type=Owner)
+        except (OSError, ValueError, msgspec.MsgspecError, RecursionError):
             return None
-        return None if owner.is_gone or owner == Owner.me() else owner
 
     def take(self) -> bool:
         """Put our name on it, over any other; whether that could be written."""
-        me = Owner.me()
-        text = json.dumps({"host": me.host, "pid": me.pid, "birth": me.birth})
         try:
-            self._file.write_text(text, "utf-8")
+            self._file.write_bytes(msgspec.json.encode(Owner.me()))
         except OSError:
             return False
         return True
 
     def release(self) -> None:
         """Remove it if it is ours."""
-        with contextlib.suppress(OSError, ValueError, KeyError, TypeError):
-            if json.loads(self._file.read_text("utf-8"))["pid"] == os.getpid() and self.owner() is None:
+        if self._read() == Owner.me():
+            with contextlib.suppress(OSError):
                 self._file.unlink()

@@ -1,6 +1,5 @@
 """Unsaved work is in the journal within a second, and a killed session's work is offered to the next."""
 
-import json
 import os
 import signal
 import subprocess
