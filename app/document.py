@@ -16,7 +16,7 @@ from core_pipeline.files import curve_set_json
 from core_pipeline.phonemes import Pair
 from core_pipeline.settings import Settings
 
-from .commands import ChangeSettings, EditBigram
+from .commands import ChangeSettings, EditBigram, EditBigrams
 
 NUDGE = "Nudge keys"
 
@@ -25,12 +25,14 @@ class Document(QObject):
     """A curve set being edited.
 
     bigram_changed(pair)  one bigram has other curves
+    bigrams_changed()     many bigrams have other curves or another status
     settings_changed()    the pipeline's settings differ
     replaced()            another set was opened
     file_changed()        path or "has unsaved changes" differs
     """
 
     bigram_changed = Signal(object)
+    bigrams_changed = Signal()
     settings_changed = Signal()
     replaced = Signal()
     file_changed = Signal()
@@ -70,6 +72,20 @@ class Document(QObject):
         self._last = EditBigram(self._put_bigram, pair, before, after, label)
         self.undo_stack.push(self._last)
 
+    def put_bigram(self, pair: Pair, bigram: Bigram, label: str) -> None:
+        """One bigram as a whole, its status too, in one step; UserError when the document cannot be edited."""
+        self._check_editable()
+        if not self.curve_set.has_pair(pair):
+            raise UserError(f"{pair[0]}-{pair[1]} is not a bigram of this set: choose another.")
+        self.undo_stack.push(EditBigram(self._put_bigram, pair, self.curve_set.bigrams.get(pair), bigram, label))
+
+    def put_bigrams(self, bigrams: Mapping[Pair, Bigram], label: str) -> None:
+        """Many bigrams in one step; UserError when the document cannot be edited."""
+        self._check_editable()
+        if bigrams:
+            before = {pair: self.curve_set.bigrams.get(pair) for pair in bigrams}
+            self.undo_stack.push(EditBigrams(self._put_bigrams, before, dict(bigrams), label))
+
     def change_settings(self, settings: Settings, label: str) -> None:
         """Use other settings; UserError when the document cannot be edited."""
         self._check_editable()
@@ -91,6 +107,12 @@ class Document(QObject):
     def _put_bigram(self, pair: Pair, bigram: Bigram | None) -> None:
         self.curve_set = self.curve_set.with_bigram(pair, bigram)
         self.bigram_changed.emit(pair)
+
+    def _put_bigrams(self, changes: Mapping[Pair, Bigram | None]) -> None:
+        changed = {**self.curve_set.bigrams, **changes}
+        kept = {pair: bigram for pair, bigram in changed.items() if bigram is not None}
+        self.curve_set = replace(self.curve_set, bigrams=kept)
+        self.bigrams_changed.emit()
 
     def _put_settings(self, settings: Settings | None) -> None:
         self.curve_set = replace(self.curve_set, settings=settings)

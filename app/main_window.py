@@ -26,7 +26,7 @@ from widgets.canvas.curve_panel import CurvePanel
 from widgets.canvas.pose_list import PoseList
 from widgets.overlay.stage_panel import StagePanel
 from widgets.picker.bigram_picker import BigramPicker
-from widgets.picker.weak_list import WeakList
+from widgets.picker.weak_panel import WeakPanel
 from widgets.preview.face_view import FaceView
 from widgets.preview.mapping_panel import MappingPanel
 from widgets.preview.weights_bars import WeightsBars
@@ -65,7 +65,8 @@ class MainWindow(QMainWindow):
         self.may_close: Callable[[], bool] = lambda: True
 
         self.picker = BigramPicker()
-        self.weak_list = WeakList()
+        self.weak_panel = WeakPanel()
+        self.weak_list = self.weak_panel.list
         self.header = CanvasHeader()
         self.bigram_transport = BigramTransport()
         self.pose_list = PoseList()
@@ -196,7 +197,7 @@ class MainWindow(QMainWindow):
     def _docks(self) -> None:
         left, right, below = _Area.LeftDockWidgetArea, _Area.RightDockWidgetArea, _Area.BottomDockWidgetArea
         self.bigrams_dock = self.add_dock("bigrams", self.tr("Bigrams"), self.picker, left)
-        self.weak_dock = self.add_dock("weak", self.tr("Weak bigrams"), self.weak_list, left)
+        self.weak_dock = self.add_dock("weak", self.tr("Weak bigrams"), self.weak_panel, left)
         self.preview_dock = self.add_dock("preview", self.tr("Preview"), self.face_view, right)
         self.weights_dock = self.add_dock("weights", self.tr("Pose weights"), self.weights, right)
         self.settings_dock = self.add_dock("settings", self.tr("Pipeline settings"), self.settings_panel, right)

@@ -9,10 +9,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtCore import QObject, QTimer
+from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QMessageBox
 
-from core_pipeline.diagnose import weak_bigrams
 from core_pipeline.errors import UserError
 from core_pipeline.phone_classes import by_class, by_frequency
 from core_pipeline.phonemes import SILENCE, Pair, pair_name
@@ -20,7 +19,6 @@ from core_pipeline.pipeline import Stages
 from core_pipeline.poses import MEANING
 from core_pipeline.settings import Settings
 from core_pipeline.speech.utterance import Utterance
-from widgets.picker.weak_list import WeakRow
 
 from ..preview import BIGRAM_SECONDS
 from .before_after import BeforeAfter
@@ -31,9 +29,7 @@ from .open_bigram import OpenBigram
 from .palette import Palette
 from .parts import Parts
 from .sentence import RATE, VOICE, Sentence
-
-#: What may lag a moment behind a drag does so for this long.
-LATE_MS = 120
+from .weak import Weak
 
 
 class Wiring(QObject):
@@ -49,14 +45,11 @@ class Wiring(QObject):
         self._state = parts.state
         self._search = parts.search
         self._statuses: dict[Pair, str] = {}
-        self._late = QTimer(self)
-        self._late.setSingleShot(True)
-        self._late.setInterval(LATE_MS)
-        self._late.timeout.connect(self._show_weak)
         self.bigram = OpenBigram(parts, self)
         self.sentence = Sentence(parts, self)
         self.character = Character(parts, self)
         self.mapping = Mapping(parts, self)
+        self.weak = Weak(parts, self.bigram, self.sentence, self)
         self.palette = Palette(parts, self.bigram, self.sentence, self)
         self.keys = KeysOfWindow(parts, self)
         self.before_after = BeforeAfter(parts, self)
@@ -74,6 +67,7 @@ class Wiring(QObject):
 
     def _connect_document(self) -> None:
         self._document.bigram_changed.connect(self._bigram_changed)
+        self._document.bigrams_changed.connect(self._bigrams_changed)
         self._document.settings_changed.connect(self._settings_changed)
         self._document.replaced.connect(self._set_replaced)
         self._document.file_changed.connect(self._show_file)
@@ -160,6 +154,13 @@ class Wiring(QObject):
         else:
             self.bigram.open(pair)  # undo reached another bigram: show what it did
 
+    def _bigrams_changed(self) -> None:
+        curve_set = self._document.curve_set
+        self._session.set_curve_set(curve_set)
+        self._statuses = {pair: curve_set.status_of(pair) for pair in self._statuses}
+        self._show_statuses()
+        self.bigram.show_curves()
+
     def _settings_changed(self) -> None:
         self._session.set_curve_set(self._document.curve_set)
         self._show_settings()
@@ -206,8 +207,6 @@ class Wiring(QObject):
         w.stage_panel.set_stages(stages)
         w.stage_panel.set_source_phones(utterance.schedule.phones if utterance is not None else None)
         self.bigram.show_place()
-        if not self._late.isActive():
-            self._late.start()
         if stages is None:
             w.timing_label.setText("")
             w.missing_label.setText("")
@@ -216,16 +215,6 @@ class Wiring(QObject):
         names = ", ".join(pair_name(pair) for pair in stages.missing)
         w.missing_label.setText(self.tr("{0} missing").format(len(stages.missing)) if names else "")
         w.missing_label.setToolTip(names)
-
-    def _show_weak(self) -> None:
-        w, stages = self._window, self._session.stages
-        weak = weak_bigrams(stages, self._session.curve_set) if stages is not None else []
-        w.weak_list.set_rows([WeakRow(x.pair, x.reason, x.worst.time, x.uses, not x.is_hint) for x in weak])
-        w.picker.set_weak({x.pair: x.reason for x in weak if not x.is_hint})
-        w.picker.set_used(self._session.used())
-        pairs = stages.schedule.pairs() if stages is not None else []
-        words = zip(reversed(pairs), reversed(self.bigram.examples), strict=False)  # of several, the first
-        w.picker.set_words({pair: text for pair, (text, _) in words if text})
 
     def _sentence_moment(self, seconds: float) -> None:
         w = self._window
@@ -295,4 +284,4 @@ class Wiring(QObject):
         state.put("safe colours", w.actions_.safe_colours.isChecked())
         state.put("loop", player.looping)
         state.put("speed", player.speed)
-        self._late.stop()
+        self.weak.close()

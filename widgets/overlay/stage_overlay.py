@@ -9,7 +9,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QPoint, Qt, Signal
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt, Signal
 from PySide6.QtGui import QFocusEvent, QHelpEvent, QKeyEvent, QMouseEvent, QWheelEvent
 from PySide6.QtWidgets import QToolTip, QWidget
 
@@ -17,6 +17,7 @@ from core_pipeline.pipeline import Stages
 from core_pipeline.poses import MEANING
 
 from .stage_footer import ROW, phone_tip
+from .stage_marks import Mark, mark_at
 from .stage_picking import Reading, bigram_at, phone_at, read
 from .stage_rows import Row
 from .stage_view import StageView
@@ -165,7 +166,9 @@ class StageOverlay(StageView):
 
     def _click(self, zone: str, at: QPoint) -> None:
         row = self._row_at(at)
-        if zone == "name" and row is not None:
+        if marks := mark_at(QPointF(at), self._marks, self.axis, self.row_of):
+            self._open_mark(marks[0])
+        elif zone == "name" and row is not None:
             self.pose_activated.emit(row.pose)
         elif zone == "row" and row is not None:
             self._open(row.pose, self.axis.time(at.x()))
@@ -183,6 +186,15 @@ class StageOverlay(StageView):
     def _open(self, pose: str, time: float) -> None:
         if self._stages is not None and (index := bigram_at(self._stages, pose, time)) is not None:
             self.bigram_picked.emit(index, time, pose)
+
+    def _open_mark(self, mark: Mark) -> None:
+        if self._stages is None:
+            return
+        times, pairs = self._stages.schedule.times, self._stages.schedule.pairs()
+        places = [i for i, pair in enumerate(pairs) if pair == mark.pair]
+        if places:
+            index = min(places, key=lambda i: abs(float(times[i + 1]) - mark.time))
+            self.bigram_picked.emit(index, mark.time, mark.pose or self.active_pose)
 
     def _scrub_to(self, time: float) -> None:
         self._set_axis(self.axis.revealing(time, time))
@@ -224,6 +236,8 @@ class StageOverlay(StageView):
         zone, row = self._zone(at), self._row_at(at)
         if self._stages is None:
             return ""
+        if marks := mark_at(QPointF(at), self._marks, self.axis, self.row_of):
+            return "\n".join(f"{' – '.join(mark.pair)}: {mark.reason}" for mark in marks)
         if zone == "name" and row is not None:
             meaning = MEANING.get(row.pose, "")
             return f"{row.pose}: {meaning}" if meaning else row.pose
