@@ -59,6 +59,7 @@ class Autosave(QObject):
         self._timer.setInterval(DELAY_MS)
         self._timer.timeout.connect(self.write)
         document.bigram_changed.connect(self._changed)
+        document.bigrams_changed.connect(self._changed)
         document.settings_changed.connect(self._changed)
         document.file_changed.connect(self._changed)
 

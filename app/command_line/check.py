@@ -12,6 +12,7 @@ from core_pipeline.diagnose import Corpus, SetFindings, WeakBigram, findings_of,
 from core_pipeline.errors import UserError
 from core_pipeline.files import curve_set_json, frequencies_json
 from core_pipeline.files.atomic import read_bytes
+from core_pipeline.files.curve_set_merge import open_conflicts
 from core_pipeline.files.json_text import shown
 from core_pipeline.phonemes import SILENCE, pair_name
 
@@ -25,11 +26,13 @@ def check(options: argparse.Namespace) -> int:
         raise UserError(f"--most {options.most} is not possible: choose 0 or more.")
     path: Path = options.file
     data = read_bytes(path, curve_set_json.MAX_BYTES, "curve set")
-    reading, problems = curve_set_json.examine(data, str(path))
+    reading, problems = curve_set_json.examine(data, str(path), path.parent)
     problems = [*problems, *(reading.repairs if reading is not None else ())]
     if reading is not None and reading.newer:
         problems.append(f"{path} was written by a newer Lipstitch; this one may misread it.")
     curve_set = None if reading is None else reading.curve_set
+    if curve_set is not None:
+        problems += [f"{path}: {what} is undecided since a merge." for what in open_conflicts(curve_set)]
     sentences: list[str] = []
     weak: list[WeakBigram] = []
     if curve_set is not None:

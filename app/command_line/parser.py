@@ -9,7 +9,7 @@ from typing import NoReturn
 from core_pipeline.errors import UserError
 from core_pipeline.settings import PRESETS, SPLINES
 
-from . import curve_work
+from . import curve_sets_parser, curve_work_parser
 
 _FACE = "toon, ada, man, woman, crab; or a .glb, .gltf or .vrm; or a folder of .obj poses"
 
@@ -60,7 +60,9 @@ def make_parser() -> Parser:
     bake.add_argument("--fps", type=float, default=60, metavar="N", help="frames per second, 1 to 1000 (default 60)")
     bake.add_argument("--no-snap", action="store_true", help="do not put each peak on its nearest frame")
 
-    curve_work.add(command)
+    curve_work_parser.add(command)
+
+    curve_sets_parser.add(command)
 
     render = command(
         "render",
