@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import QByteArray, Qt, Signal
+from PySide6.QtCore import QByteArray, QEvent, Qt, Signal
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeyEvent, QPalette, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QDockWidget,
@@ -49,10 +49,12 @@ class MainWindow(QMainWindow):
 
     play_wanted()  Space, where nothing that has the focus wants it
     dropped(Path)  a file or folder was dropped on the window
+    let_go()       a key was released, or another window came to the front
     """
 
     play_wanted = Signal()
     dropped = Signal(Path)
+    let_go = Signal()
 
     def __init__(self, document: Document) -> None:
         super().__init__()
@@ -115,6 +117,18 @@ class MainWindow(QMainWindow):
             self.play_wanted.emit()
         else:
             super().keyPressEvent(event)
+
+    def keyReleaseEvent(self, event: QKeyEvent) -> None:
+        """Qt's hook: what lasts while a key is held ends."""
+        super().keyReleaseEvent(event)
+        if not event.isAutoRepeat():
+            self.let_go.emit()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Qt's hook: a key let go in another window is never heard of here."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.ActivationChange and not self.isActiveWindow():
+            self.let_go.emit()
 
     def showEvent(self, event: QShowEvent) -> None:
         """Give the docks their first sizes once the window has its own."""

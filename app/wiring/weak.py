@@ -103,7 +103,7 @@ class Weak(QObject):
         pairs = stages.schedule.pairs() if stages is not None else []
         words = zip(reversed(pairs), reversed(self._bigram.examples), strict=False)  # of several, the first
         w.picker.set_words({pair: text for pair, (text, _) in words if text})
-        if not session.in_gesture:  # when it ends there is a new result
+        if not session.in_gesture and not session.shows_other:  # when it ends there is a new result
             self._diagnoser.request((session.curve_set, stages))
 
     def _diagnosed(self, diagnosis: Diagnosis) -> None:

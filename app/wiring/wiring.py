@@ -22,13 +22,19 @@ from core_pipeline.speech.utterance import Utterance
 
 from ..preview import BIGRAM_SECONDS
 from .before_after import BeforeAfter
+from .carrier import Carrier
 from .character import Character
+from .compare import Compare
 from .keys import KeysOfWindow
 from .mapping import Mapping
 from .open_bigram import OpenBigram
 from .palette import Palette
 from .parts import Parts
+from .queue import Queue
 from .sentence import RATE, VOICE, Sentence
+from .statistics import Statistics
+from .suggesting import Suggesting
+from .time_spent import TimeSpent
 from .weak import Weak
 
 
@@ -50,6 +56,12 @@ class Wiring(QObject):
         self.character = Character(parts, self)
         self.mapping = Mapping(parts, self)
         self.weak = Weak(parts, self.bigram, self.sentence, self)
+        self.suggesting = Suggesting(parts, self.bigram, self.weak, self)
+        self.carrier = Carrier(parts, self.sentence, self)
+        self.queue = Queue(parts, self.bigram, self.weak, self.carrier, self)
+        self.time_spent = TimeSpent(parts, self.bigram, self)
+        self.compare = Compare(parts, self.bigram, self)
+        self.statistics = Statistics(parts, self.queue, self)
         self.palette = Palette(parts, self.bigram, self.sentence, self)
         self.keys = KeysOfWindow(parts, self)
         self.before_after = BeforeAfter(parts, self)
@@ -82,7 +94,7 @@ class Wiring(QObject):
         w.canvas.play_wanted.connect(preview.toggle_bigram)
         w.header.snap_toggled.connect(w.canvas.set_snap)
         w.header.polygon_toggled.connect(w.canvas.set_polygon)
-        w.header.action_wanted.connect(w.canvas.do)
+        w.header.action_wanted.connect(w.canvas.act)
         w.canvas.keys_changed.connect(w.header.set_keys)
         w.header.set_keys(w.canvas.keys)
         w.bigram_transport.play_toggled.connect(preview.toggle_bigram)
@@ -182,10 +194,7 @@ class Wiring(QObject):
         self._window.canvas.set_spline(settings.spline)
 
     def _show_statuses(self) -> None:
-        total = len(self._document.curve_set.phonemes) ** 2
-        drawn = sum(status != "empty" for pair, status in self._statuses.items() if SILENCE not in pair)
         self._window.picker.set_statuses(self._statuses)
-        self._window.picker.set_coverage(self.tr("{0} of {1} bigrams").format(drawn, total), drawn / max(total, 1))
 
     def _show_file(self) -> None:
         document, w = self._document, self._window
@@ -288,3 +297,5 @@ class Wiring(QObject):
         state.put("loop", player.looping)
         state.put("speed", player.speed)
         self.weak.close()
+        self.carrier.close()
+        self.time_spent.close()
