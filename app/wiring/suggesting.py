@@ -78,7 +78,7 @@ class Suggesting(QObject):
 
     def _show(self, _: Pair | Diagnosis | None = None) -> None:
         """What is suggested for the open bigram: its ghost while it is empty, else something to slide to."""
-        pair, canvas, header = self._bigram.pair, self._window.canvas, self._window.header
+        pair, canvas = self._bigram.pair, self._window.canvas
         diagnosis = self._weak.diagnosis
         was_offered, self._offered = self._offered, None
         name = self.tr("suggestion")
@@ -91,9 +91,9 @@ class Suggesting(QObject):
                 self._offered = suggested
                 canvas.set_ghost(suggested.curves)
         if self._offered is None:
-            header.set_suggestion("")
+            canvas.set_suggestion("")
             if was_offered is not None and pair is not None and self._document.curve_set.status_of(pair) == "empty":
                 canvas.set_ghost(None)
         else:
-            header.set_suggestion(self.tr("{0} · Tab accepts").format(self._offered.source))
+            canvas.set_suggestion(self._offered.source)
         self.accept_action.setEnabled(self._offered is not None)

@@ -46,7 +46,7 @@ class CanvasHeader(QWidget):
         self._word, self._span = "", (0, 0)
         self._used: int | None = None
         self._status = ""
-        self._suggestion = self._spent = ""
+        self._spent = ""
         self._title = QLabel()
         self._title.setFont(theme.font(15, bold=True))
         self._title.setAccessibleName(self.tr("Open bigram"))
@@ -111,11 +111,6 @@ class CanvasHeader(QWidget):
         self._status = status
         self._show()
 
-    def set_suggestion(self, text: str) -> None:
-        """Where the suggestion that is shown comes from, "" for none."""
-        self._suggestion = text
-        self._show()
-
     def set_time_spent(self, text: str) -> None:
         """How long the user has worked on the bigram, shown where there is room for it."""
         self._spent = text
@@ -172,10 +167,6 @@ class CanvasHeader(QWidget):
             parts.append((used, escape(used)))
         if self._status:
             parts.append((self._status, escape(self._status)))
-        if self._suggestion:
-            parts.append(
-                (self._suggestion, f'<span style="color:{theme.LINK.name()}">{escape(self._suggestion)}</span>')
-            )
         return parts
 
     def _show(self) -> None:
