@@ -124,7 +124,7 @@ class CurveItem(pg.GraphicsObject):
         painter.setPen(QPen(_GHOST, 1))
         for pose, curve in self.ghost.items():
             if not control.curves:  # a suggestion: nothing else tells which pose is which
-                painter.setPen(QPen(theme.mix(self._colour(pose), theme.BACKGROUND, 0.6), 1, Qt.PenStyle.DashLine))
+                painter.setPen(QPen(theme.mix(self._colour(pose), theme.BACKGROUND, 0.75), 1, Qt.PenStyle.DashLine))
             if pose in control.visible and curve is not control.curves.get(pose):
                 painter.drawPolyline(polygon(spline_points(curve, control.spline, control.view)))
 
