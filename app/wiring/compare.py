@@ -14,6 +14,7 @@ from core_pipeline.curve_set import Bigram, CurveSet
 from core_pipeline.errors import UserError
 from core_pipeline.files import curve_set_json
 from core_pipeline.pipeline import Stages
+from core_pipeline.speech.utterance import Utterance
 
 from .open_bigram import OpenBigram
 from .parts import Parts
@@ -34,6 +35,7 @@ class Compare(QObject):
         self._state, self._bigram = parts.state, bigram
         self._opened = self._document.curve_set
         self.other: CurveSet | None = None
+        self._drawn: tuple[Utterance | None, CurveSet | None] = (None, None)
         tools = self._window.actions_.tools_menu
         self.hold_action = tools.add(
             "compare.hold",
@@ -132,8 +134,9 @@ class Compare(QObject):
         self._window.picker.set_differences({pair: found.get(pair, 0.0) / FULL for pair in pairs})
 
     def _stages_changed(self, _: Stages | None) -> None:
-        utterance, panel = self._session.utterance, self._window.stage_panel
-        if self.other is None or utterance is None:
-            panel.set_other(None)
-        else:
-            panel.set_other(pipeline.run(utterance.schedule, self.other))
+        now = self._session.utterance, self.other
+        if now != self._drawn:  # the same all through a drag
+            self._drawn = now
+            utterance, other = now
+            played = None if utterance is None or other is None else pipeline.run(utterance.schedule, other)
+            self._window.stage_panel.set_other(played)

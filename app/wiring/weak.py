@@ -79,6 +79,7 @@ class Weak(QObject):
         panel.list.picked_in.connect(self._go)
         self._document.bigram_changed.connect(lambda _: self._later.start())
         self._document.bigrams_changed.connect(self._later.start)
+        self._document.replaced.connect(self._later.start)
         self._document.settings_changed.connect(self._later.start)
 
     def close(self) -> None:

@@ -119,9 +119,10 @@ class StageView(QWidget):
 
     def set_other(self, stages: Stages | None) -> None:
         """What another curve set makes of the sentence, its final curves dashed; None for none."""
-        self._other = {} if stages is None else pose_lines(stages)
-        self._row_pixmaps.clear()
-        self._redraw()
+        if stages is not None or self._other:
+            self._other = {} if stages is None else pose_lines(stages)
+            self._row_pixmaps.clear()
+            self._redraw()
 
     def set_marks(self, marks: Sequence[Mark]) -> None:
         """What is weak, where it is."""
