@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from PySide6.QtGui import QActionGroup, QKeySequence, QUndoStack
+from PySide6.QtGui import QActionGroup, QUndoStack
 from PySide6.QtWidgets import QMainWindow
 
 from widgets import theme
 from widgets.canvas.keymaps import KEYMAPS, NEUTRAL
 
 from .menus import Registry
-
-_Keys = QKeySequence.StandardKey
 
 
 class Actions:
@@ -29,20 +27,32 @@ class Actions:
         self._tools()
         self._help()
 
+    @property
+    def keymap(self) -> str:
+        """The canvas's keymap that is chosen."""
+        chosen = self.keymaps.checkedAction()
+        return str(chosen.data()) if chosen is not None else NEUTRAL
+
     def _file(self) -> None:
         tr, menu = self._tr, self.registry.menu(self._tr("&File"))
         self.file_menu = menu
-        self.new = menu.add("file.new", tr("&New"), _Keys.New, tr("Start from the English set, without a file"))
+        self.new = menu.add("file.new", tr("&New"), "Ctrl+N", tr("Start from the English set, without a file"))
         self.new_empty = menu.add("file.new-empty", tr("New &Empty Set"), (), tr("Start with 441 empty bigrams"))
-        self.open = menu.add("file.open", tr("&Open…"), _Keys.Open, tr("Open a curve set"))
+        self.open = menu.add("file.open", tr("&Open…"), "Ctrl+O", tr("Open a curve set"))
         self.open_face = menu.add(
             "file.open-face", tr("Open &Face…"), "Ctrl+Shift+O", tr("Show a .glb, .gltf or .vrm of yours")
         )
         self.open_face_folder = menu.add(
             "file.open-face-folder", tr("Open Face Fol&der…"), (), tr("Show a folder of .obj poses")
         )
+        self.new_set_for_face = menu.add(
+            "file.new-set-for-face",
+            tr("New Curve Set for This Face's &Poses"),
+            (),
+            tr("Start an empty set whose poses are the face's own shapes"),
+        )
         menu.line()
-        self.save = menu.add("file.save", tr("&Save"), _Keys.Save, tr("Save the curve set"))
+        self.save = menu.add("file.save", tr("&Save"), "Ctrl+S", tr("Save the curve set"))
         self.save_as = menu.add(
             "file.save-as", tr("Save &As…"), "Ctrl+Shift+S", tr("Save the curve set in another file")
         )
@@ -62,12 +72,14 @@ class Actions:
     def _edit(self, undo_stack: QUndoStack) -> None:
         tr, menu = self._tr, self.registry.menu(self._tr("&Edit"))
         self.edit_menu = menu
-        self.undo = menu.put("edit.undo", undo_stack.createUndoAction(self._window, tr("&Undo")), _Keys.Undo)
+        self.undo = menu.put("edit.undo", undo_stack.createUndoAction(self._window, tr("&Undo")), "Ctrl+Z")
         self.undo.setIcon(theme.icon("undo"))
+        self.undo.setStatusTip(tr("Take the last change back"))
         self.redo = menu.put(
             "edit.redo", undo_stack.createRedoAction(self._window, tr("&Redo")), ("Ctrl+Shift+Z", "Ctrl+Y")
         )
         self.redo.setIcon(theme.icon("redo"))
+        self.redo.setStatusTip(tr("Make the change again that was taken back"))
         menu.line()
         keys = menu.submenu(tr("&Keys of the Canvas"))
         self.keymaps: QActionGroup = keys.choice()
@@ -106,7 +118,7 @@ class Actions:
     def _bigram(self) -> None:
         tr, menu = self._tr, self.registry.menu(self._tr("&Bigram"))
         self.bigram_menu = menu
-        self.find = menu.add("bigram.find", tr("&Find Bigram"), _Keys.Find, tr("Type two phones or a word"))
+        self.find = menu.add("bigram.find", tr("&Find Bigram"), "Ctrl+F", tr("Type two phones or a word"))
         self.play_bigram = menu.add(
             "bigram.play", tr("&Play the Bigram Alone"), "Shift+F5", tr("Play or stop the open bigram")
         )
@@ -115,10 +127,10 @@ class Actions:
             "bigram.swapped", tr("Open the &Swapped Pair"), "Ctrl+Shift+B", tr("From f-ah to ah-f and back")
         )
         self.next_bigram = menu.add(
-            "bigram.next", tr("&Next in the Sentence"), "Ctrl+Alt+Right", tr("The sentence's next bigram")
+            "bigram.next", tr("&Next in the Sentence"), "Alt+Right", tr("The sentence's next bigram")
         )
         self.previous_bigram = menu.add(
-            "bigram.previous", tr("P&revious in the Sentence"), "Ctrl+Alt+Left", tr("The sentence's previous bigram")
+            "bigram.previous", tr("P&revious in the Sentence"), "Alt+Left", tr("The sentence's previous bigram")
         )
 
     def _sentence(self) -> None:

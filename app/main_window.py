@@ -33,6 +33,7 @@ from widgets.preview.weights_bars import WeightsBars
 from widgets.sentence_bar import SentenceBar
 from widgets.settings.settings_panel import SettingsPanel
 from widgets.transport import Transport
+from widgets.window.keymap_question import KeymapQuestion
 
 from .actions import Actions
 from .document import Document
@@ -77,6 +78,7 @@ class MainWindow(QMainWindow):
         self.stage_panel = StagePanel()
         self.transport = Transport()
         self.sentence_bar = SentenceBar()
+        self.keymap_question = KeymapQuestion()
 
         self.actions_ = Actions(self, document.undo_stack)
         self._toolbar()
@@ -185,6 +187,7 @@ class MainWindow(QMainWindow):
         column = QVBoxLayout(centre)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
+        column.addWidget(self.keymap_question)
         column.addWidget(head)
         column.addWidget(body, 1)
         centre.setMinimumSize(360, 180)

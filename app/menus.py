@@ -13,10 +13,8 @@ from PySide6.QtWidgets import QMenu, QMenuBar
 
 from widgets import theme
 
-#: Keys as Qt writes them on every system, "Ctrl+Shift+S"; several in a tuple; or what the system uses for it.
-Keys = str | tuple[str, ...] | QKeySequence.StandardKey
-
-_PORTABLE = QKeySequence.SequenceFormat.PortableText
+#: Keys as Qt writes them on every system, "Ctrl+Shift+S"; several in a tuple.
+Keys = str | tuple[str, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,7 +102,7 @@ class Menu:
     def put(self, name: str, action: QAction, keys: Keys = ()) -> QAction:
         """An action that somebody else has made."""
         self.menu.addAction(action)
-        self._registry.register(Entry(name, self._group, action, portable(keys)))
+        self._registry.register(Entry(name, self._group, action, (keys,) if isinstance(keys, str) else keys))
         return action
 
     def line(self) -> None:
@@ -123,10 +121,3 @@ class Menu:
 def plain(text: str) -> str:
     """A menu's text as it is read: "Save &As…" → "Save As"."""
     return text.replace("&&", "\0").replace("&", "").replace("\0", "&").removesuffix("…")
-
-
-def portable(keys: Keys) -> tuple[str, ...]:
-    """Keys as they are stored."""
-    if isinstance(keys, QKeySequence.StandardKey):
-        return tuple(key.toString(_PORTABLE) for key in QKeySequence.keyBindings(keys))
-    return (keys,) if isinstance(keys, str) else keys

@@ -1,8 +1,8 @@
 """The only place, with its neighbours, where wishes become commands and values reach the views.
 
 open_bigram.py has the canvas and what belongs to it, sentence.py the sentence and its transport,
-character.py the face, mapping.py what makes its poses; here is the rest: the document's news, the pipeline's
-results, settings, search, menus.
+character.py the face, mapping.py what makes its poses, palette.py the command palette, keys.py keymaps and
+shortcuts; here is the rest: the document's news, the pipeline's results, settings, search, menus.
 """
 
 from __future__ import annotations
@@ -12,8 +12,9 @@ from pathlib import Path
 from PySide6.QtCore import QObject, QTimer
 from PySide6.QtWidgets import QMessageBox
 
-from core_pipeline.diagnose import Weakness, weak_bigrams
+from core_pipeline.diagnose import weak_bigrams
 from core_pipeline.errors import UserError
+from core_pipeline.phone_classes import by_class, by_frequency
 from core_pipeline.phonemes import SILENCE, Pair, pair_name
 from core_pipeline.pipeline import Stages
 from core_pipeline.poses import MEANING
@@ -22,9 +23,12 @@ from core_pipeline.speech.utterance import Utterance
 from widgets.picker.weak_list import WeakRow
 
 from ..preview import BIGRAM_SECONDS
+from .before_after import BeforeAfter
 from .character import Character
+from .keys import KeysOfWindow
 from .mapping import Mapping
 from .open_bigram import OpenBigram
+from .palette import Palette
 from .parts import Parts
 from .sentence import RATE, VOICE, Sentence
 
@@ -53,6 +57,10 @@ class Wiring(QObject):
         self.sentence = Sentence(parts, self)
         self.character = Character(parts, self)
         self.mapping = Mapping(parts, self)
+        self.palette = Palette(parts, self.bigram, self.sentence, self)
+        self.keys = KeysOfWindow(parts, self)
+        self.before_after = BeforeAfter(parts, self)
+        self.bigram.opened.connect(self.before_after.forget)
         self._connect_document()
         self._connect_views()
         self._connect_menu()
@@ -79,7 +87,10 @@ class Wiring(QObject):
         w.canvas.hint_changed.connect(w.hint_label.setText)
         w.canvas.play_wanted.connect(preview.toggle_bigram)
         w.header.snap_toggled.connect(w.canvas.set_snap)
-        w.header.frame_all_wanted.connect(w.canvas.frame_all)
+        w.header.polygon_toggled.connect(w.canvas.set_polygon)
+        w.header.action_wanted.connect(w.canvas.act)
+        w.canvas.keys_changed.connect(w.header.set_keys)
+        w.header.set_keys(w.canvas.keys)
         w.bigram_transport.play_toggled.connect(preview.toggle_bigram)
         w.bigram_transport.length_changed.connect(preview.set_bigram_length)
         w.settings_panel.settings_changed.connect(self._settings_wanted)
@@ -110,22 +121,28 @@ class Wiring(QObject):
             (a.play, self._preview.toggle_sentence),
             (a.play_bigram, self._preview.toggle_bigram),
             (a.to_start, self.sentence.to_start),
-            (a.reset_view, self._preview.reset_view),
+            (a.reset_view, w.face_view.reset_wanted.emit),
             (a.default_layout, w.default_layout),
             (a.about, self._about),
         ):
             action.triggered.connect(lambda _=False, act=act: act())
         a.loop.toggled.connect(self.sentence.set_loop)
-        a.keymaps.triggered.connect(lambda action: w.canvas.set_keymap(action.data()))
         a.safe_colours.toggled.connect(w.stage_panel.set_palette_safe)
         w.play_wanted.connect(self._preview.toggle_sentence)
         w.dropped.connect(self._open_dropped)
+        self.character.set_wanted.connect(self._files.new_empty)
 
     # ── document → views ─────────────────────────────────────────────────────────────────────────
 
     def _set_replaced(self) -> None:
         curve_set, w = self._document.curve_set, self._window
-        w.picker.set_phonemes(curve_set.phonemes)
+        w.picker.set_orders(
+            {
+                self.tr("As in the set"): curve_set.phonemes,
+                self.tr("By class"): by_class(curve_set.phonemes),
+                self.tr("By frequency"): by_frequency(curve_set.phonemes),
+            }
+        )
         w.pose_list.set_poses(curve_set.poses, {p: MEANING[p] for p in curve_set.poses if p in MEANING})
         w.canvas.set_poses(curve_set.poses)
         w.weights.set_poses(curve_set.poses)
@@ -206,18 +223,12 @@ class Wiring(QObject):
     def _show_weak(self) -> None:
         w, stages = self._window, self._session.stages
         weak = weak_bigrams(stages, self._session.curve_set) if stages is not None else []
-        w.weak_list.set_rows([WeakRow(x.pair, self._why(x), x.time, x.uses, x.severity > 0.2) for x in weak])
-        w.picker.set_weak({x.pair: self._why(x) for x in weak if x.severity > 0.2})
+        w.weak_list.set_rows([WeakRow(x.pair, x.reason, x.worst.time, x.uses, not x.is_hint) for x in weak])
+        w.picker.set_weak({x.pair: x.reason for x in weak if not x.is_hint})
         w.picker.set_used(self._session.used())
-
-    def _why(self, weakness: Weakness) -> str:
-        if weakness.kind == "slowed":
-            return self.tr("{0}: {1} % lost to the speed limit").format(weakness.pose, round(100 * weakness.amount))
-        return {
-            "missing": self.tr("missing"),
-            "flat": self.tr("no curve rises"),
-            "unreviewed": self.tr("not reviewed yet"),
-        }[weakness.kind]
+        pairs = stages.schedule.pairs() if stages is not None else []
+        words = zip(reversed(pairs), reversed(self.bigram.examples), strict=False)  # of several, the first
+        w.picker.set_words({pair: text for pair, (text, _) in words if text})
 
     def _sentence_moment(self, seconds: float) -> None:
         w = self._window
@@ -267,10 +278,9 @@ class Wiring(QObject):
         """Bring back last time's layout."""
         state, w = self._state, self._window
         w.restore_layout(state.layout("geometry"), state.layout("docks"))
+        w.picker.set_order(state.text("order of phones"))
         w.actions_.safe_colours.setChecked(state.flag("safe colours", False))
-        for action in w.actions_.keymaps.actions():
-            if action.data() == state.text("keymap", "neutral"):
-                action.trigger()
+        self.keys.restore()
         self.character.restore()
         self.sentence.set_loop(state.flag("loop", True))
         w.transport.set_speed(state.number("speed", 1.0))
@@ -283,9 +293,8 @@ class Wiring(QObject):
         self.mapping.close()
         state.put("geometry", w.saveGeometry())
         state.put("docks", w.saveState())
+        state.put("order of phones", w.picker.order_name)
         state.put("sentence", w.sentence_bar.sentence)
-        keymap = w.actions_.keymaps.checkedAction()
-        state.put("keymap", keymap.data() if keymap is not None else "neutral")
         state.put("safe colours", w.actions_.safe_colours.isChecked())
         state.put("loop", player.looping)
         state.put("speed", player.speed)
