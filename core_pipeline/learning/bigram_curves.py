@@ -5,13 +5,14 @@
 A bigram's neighbours show through at its ends, so the mean alone is too high there: it is tapered to 0. With enough
 speech the curves are then corrected until the HIGHER of two overlapping ones is what was seen, which is what
 stitching does. A pair that was seen once or twice is mostly its neighbours' doing; it leans on what its two phones do
-in other pairs (ours), and so do the curves that are offered for pairs that were never seen.
+in other pairs (ours). Pairs that were never seen are only offered, as suggest.py suggests them.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,15 +22,16 @@ from ..curves import Curve
 from ..errors import UserError
 from ..methods.method import Progress, no_progress
 from ..phonemes import SILENCE, Pair
+from ..simplify import simplified
+from ..suggest import Suggestions
 from .corpus import Corpus
 from .occurrences import NODES, PLACES, Occurrences, occurrences_of
 from .parts import Parts
-from .simplify import simplified
 
 Array = NDArray[np.float64]
 
-#: What a bigram made here has as its source, and one that only leans on its phones.
-LEARNED, GUESSED = "learned", "learned phones"
+#: What a bigram made here has as its source.
+LEARNED = "learned"
 #: The taper rises this steeply from both ends.
 TAPER = np.minimum(1.0, 3.2 * np.minimum(PLACES, 1.0 - PLACES))
 #: Bigrams heard (about 15 sentences) above which curves are refined, how often, and how much of the error is taken
@@ -69,31 +71,34 @@ class Learned:
     """What a corpus taught.
 
     found    pairs that were spoken, most often first
-    offered  pairs that were not, with a guess from their phones
+    heard    every occurrence
     """
 
     poses: tuple[str, ...]
     phonemes: tuple[str, ...]
     phoneme_map: Mapping[str, str]
     found: Mapping[Pair, LearnedBigram]
-    offered: Mapping[Pair, Bigram]
     heard: Occurrences
 
     def curve_set(self, name: str = "Learned", like: CurveSet | None = None) -> CurveSet:
-        """A set of the found bigrams alone; settings and language of `like`, whose poses must include ours."""
-        bigrams = {pair: learned.bigram for pair, learned in self.found.items()}
-        base = like if like is not None else CurveSet()
-        poses = like.poses if like is not None else self.poses
-        return replace(
-            base,
+        """A set of the found bigrams alone; poses, settings and language of `like`, whose poses must include ours."""
+        return CurveSet(
             name=name,
-            poses=poses,
+            language=like.language if like is not None else "en",
             phonemes=self.phonemes,
+            poses=like.poses if like is not None else self.poses,
+            bigrams={pair: learned.bigram for pair, learned in self.found.items()},
             phoneme_map=self.phoneme_map,
-            bigrams=bigrams,
-            base=None,
-            extra={},
+            settings=like.settings if like is not None else None,
         )
+
+    @cached_property
+    def offered(self) -> Mapping[Pair, Bigram]:
+        """Pairs that were never spoken, those of silence too, each with a suggestion from those that were."""
+        suggestions = Suggestions.of(self.curve_set()).prepared()
+        phones = (*self.phonemes, SILENCE)
+        pairs = ((a, b) for a in phones for b in phones if (a, b) != (SILENCE, SILENCE))
+        return {pair: suggestions.bigram(pair) for pair in pairs if pair not in self.found}
 
     def spoken(self, pair: Pair, pose: str) -> list[tuple[Array, Array]]:
         """(normalised times, weights) of the pose in every occurrence of a pair, where the face was seen."""
@@ -118,24 +123,23 @@ def learn_bigrams(corpus: Corpus, options: LearnOptions | None = None, progress:
     if not any(count and set(pair) <= phones and pair != silent for pair, count in counted):
         raise UserError("The corpus shows no pair of phones: check that labels and animation belong together.")
     refine = options.refine if options.refine is not None else heard.pair.size >= ENOUGH
-    parts = Parts.of(heard.pairs, heard.counts, corpus.phonemes)
+    parts = Parts(heard.pairs, heard.counts)
     curves = np.empty((len(heard.pairs), NODES, len(corpus.poses)))
-    guesses = np.empty((len(parts.unseen), NODES, len(corpus.poses)))
     errors = np.zeros(heard.pair.size)
     for p, pose in enumerate(corpus.poses):
         progress(p / len(corpus.poses), pose)
-        made, guess = _pose_curves(heard, heard.motion[:, :, p].astype(np.float64), parts, options.lean, refine)
-        curves[:, :, p], guesses[:, :, p] = made, guess
+        made = _pose_curves(heard, heard.motion[:, :, p].astype(np.float64), parts, options.lean, refine)
+        curves[:, :, p] = made
         gap = heard.motion[:, :, p] - np.maximum(made[heard.pair], heard.rivals(made))
         errors += (gap**2 * heard.known).sum(1)
-    return _learned(corpus, heard, parts, curves, guesses, errors, options.tolerance)
+    return _learned(corpus, heard, curves, errors, options.tolerance)
 
 
-def _pose_curves(heard: Occurrences, motion: Array, parts: Parts, lean: float, refine: bool) -> tuple[Array, Array]:
-    """One pose: (pairs, NODES) of the pairs that were seen, and guesses for those that were not."""
+def _pose_curves(heard: Occurrences, motion: Array, parts: Parts, lean: float, refine: bool) -> Array:
+    """One pose: (pairs, NODES)."""
     total = heard.summed(heard.known)
     mean = _bridged(heard.summed(heard.known * motion), total)
-    curves, guesses = parts.steadied(_smoothed(mean * TAPER), lean)
+    curves = parts.steadied(_smoothed(mean * TAPER), lean)
     for _ in range(ROUNDS if refine else 0):
         own, rival = curves[heard.pair], heard.rivals(curves)
         blamed = heard.known * (own >= rival - TIE)
@@ -143,8 +147,8 @@ def _pose_curves(heard: Occurrences, motion: Array, parts: Parts, lean: float, r
         curves = curves + STEP * error / np.maximum(heard.summed(blamed), 1.0)
         curves = np.clip(curves, 0.0, 1.0)
         curves[:, [0, -1]] = 0.0
-        curves, guesses = parts.steadied(_smoothed(curves), lean)
-    return curves, guesses
+        curves = parts.steadied(_smoothed(curves), lean)
+    return curves
 
 
 def _bridged(total: Array, count: Array) -> Array:
@@ -162,9 +166,7 @@ def _smoothed(curves: Array) -> Array:
     return np.asarray((wide[:, :-2] + 2 * wide[:, 1:-1] + wide[:, 2:]) / 4)
 
 
-def _learned(
-    corpus: Corpus, heard: Occurrences, parts: Parts, curves: Array, guesses: Array, errors: Array, tolerance: float
-) -> Learned:
+def _learned(corpus: Corpus, heard: Occurrences, curves: Array, errors: Array, tolerance: float) -> Learned:
     phones = {*corpus.phonemes, SILENCE}
     looked = heard.known.sum(1)
     squares, weight = np.bincount(heard.pair, errors), np.bincount(heard.pair, looked) * max(len(corpus.poses), 1)
@@ -177,11 +179,7 @@ def _learned(
         about = {"learned": {"occurrences": count, "residual": round(residual, 4)}}
         made = _curves(curves[row], corpus.poses, tolerance)
         found[pair] = LearnedBigram(Bigram(made, "draft", LEARNED, extra=about), count, residual)
-    offered = {
-        pair: Bigram(_curves(guess, corpus.poses, tolerance), "suggestion", GUESSED)
-        for pair, guess in zip(parts.unseen, guesses, strict=True)
-    }
-    return Learned(corpus.poses, corpus.phonemes, corpus.phoneme_map, found, offered, heard)
+    return Learned(corpus.poses, corpus.phonemes, corpus.phoneme_map, found, heard)
 
 
 def _curves(nodes: Array, poses: tuple[str, ...], tolerance: float) -> dict[str, Curve]:
@@ -191,6 +189,5 @@ def _curves(nodes: Array, poses: tuple[str, ...], tolerance: float) -> dict[str,
         v: Array = np.round(np.clip(nodes[:, p], 0.0, 1.0), 3).astype(np.float64)
         v[[0, -1]] = 0.0
         if v.max() >= FLAT:
-            keep = simplified(PLACES, v, tolerance)
-            made[pose] = Curve(np.round(PLACES[keep], 3), v[keep])
+            made[pose] = simplified(PLACES, v, tolerance)
     return made

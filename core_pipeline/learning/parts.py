@@ -1,18 +1,17 @@
 """What a phone does in all its pairs: a pair's curve as the first phone's part plus the second's.
 
 Animators' sets are nearly such sums (phone_parts.py). Fitted to the pairs that were seen, they steady those seen
-rarely and give a first guess for those never seen.
+rarely. (Pairs never seen at all get a suggestion, see suggest.py.)
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..phonemes import SILENCE, Pair
+from ..phonemes import Pair
 
 Array = NDArray[np.float64]
 
@@ -21,50 +20,25 @@ MOST = 5
 RIDGE = 0.3
 
 
-@dataclass(frozen=True, eq=False)
 class Parts:
-    """The seen pairs as rows of phones, and the unseen ones.
+    """Pairs as rows of two phones, with how often each was seen, counts (pairs,)."""
 
-    design   (pairs, 2·phones) 1 for the first phone and for the second
-    counts   (pairs,) occurrences
-    unseen   pairs of the phoneme set of which both phones were seen in that position
-    wanted   (unseen, 2·phones) the same for those
-    """
+    def __init__(self, pairs: Sequence[Pair], counts: NDArray[np.intp]) -> None:
+        number = {phone: i for i, phone in enumerate(dict.fromkeys(phone for pair in pairs for phone in pair))}
+        self._rows = np.zeros((len(pairs), 2 * len(number)))
+        for i, (first, second) in enumerate(pairs):
+            self._rows[i, number[first]] = self._rows[i, len(number) + number[second]] = 1.0
+        self._counts = counts
 
-    design: Array
-    counts: NDArray[np.intp]
-    unseen: tuple[Pair, ...]
-    wanted: Array
+    def steadied(self, curves: Array, lean: float) -> Array:
+        """The pairs' curves (pairs, nodes), each drawn towards the sum of its phones' parts.
 
-    @classmethod
-    def of(cls, pairs: Sequence[Pair], counts: NDArray[np.intp], phonemes: Sequence[str]) -> Parts:
-        """Rows of the pairs; a pair never seen well enough counts as unseen."""
-        number = {
-            phone: i for i, phone in enumerate(dict.fromkeys([*phonemes, SILENCE, *(q for p in pairs for q in p)]))
-        }
-        seen = {pair for pair, count in zip(pairs, counts.tolist(), strict=True) if count}
-        first, second = {pair[0] for pair in seen}, {pair[1] for pair in seen}
-        everything = [
-            (a, b) for a in (*phonemes, SILENCE) for b in (*phonemes, SILENCE) if (a, b) != (SILENCE, SILENCE)
-        ]
-        unseen = tuple((a, b) for a, b in everything if (a, b) not in seen and a in first and b in second)
-        return cls(_rows(pairs, number), counts, unseen, _rows(unseen, number))
-
-    def steadied(self, curves: Array, lean: float) -> tuple[Array, Array]:
-        """The seen pairs' curves (pairs, nodes) leaning on their phones, and guesses for the unseen (unseen, nodes).
-
-        lean  occurrences that the phones' opinion counts as
+        lean  occurrences that the phones' opinion counts as; 0: none
         """
-        weight = np.minimum(self.counts, MOST).astype(np.float64)
-        matrix = self.design.T @ (weight[:, None] * self.design) + RIDGE * np.eye(self.design.shape[1])
-        solved = np.linalg.solve(matrix, self.design.T @ (weight[:, None] * curves))
-        opinion, guess = (np.clip(rows @ solved, 0.0, 1.0) for rows in (self.design, self.wanted))
-        own = self.counts / (self.counts + lean) if lean else np.ones(self.counts.size)
-        return own[:, None] * curves + (1 - own[:, None]) * opinion, guess
-
-
-def _rows(pairs: Sequence[Pair], number: dict[str, int]) -> Array:
-    rows = np.zeros((len(pairs), 2 * len(number)))
-    for i, (first, second) in enumerate(pairs):
-        rows[i, number[first]] = rows[i, len(number) + number[second]] = 1.0
-    return rows
+        if not lean:
+            return curves
+        weight = np.minimum(self._counts, MOST).astype(np.float64)
+        matrix = self._rows.T @ (weight[:, None] * self._rows) + RIDGE * np.eye(self._rows.shape[1])
+        opinion = np.clip(self._rows @ np.linalg.solve(matrix, self._rows.T @ (weight[:, None] * curves)), 0.0, 1.0)
+        own = (self._counts / (self._counts + lean))[:, None]
+        return np.asarray(own * curves + (1 - own) * opinion)

@@ -9,10 +9,9 @@ import pytest
 from core_pipeline.curve_set import Bigram, CurveSet
 from core_pipeline.curves import Curve
 from core_pipeline.errors import UserError
-from core_pipeline.learning.bigram_curves import GUESSED, LEARNED, Learned, LearnOptions, learn_bigrams
+from core_pipeline.learning.bigram_curves import LEARNED, Learned, LearnOptions, learn_bigrams
 from core_pipeline.learning.corpus import Clip, Corpus
 from core_pipeline.learning.occurrences import NODES, PLACES, occurrences_of
-from core_pipeline.learning.simplify import simplified
 from core_pipeline.methods.bigram import BigramMethod
 from core_pipeline.methods.compare import held_out_error
 from core_pipeline.methods.method import Cancelled
@@ -79,7 +78,8 @@ def test_pairs_never_heard_are_only_offered():
     heard = {pair for clip in corpus(baked()[:40]).clips for pair in clip.schedule.pairs()}
     assert not set(learned().offered) & heard
     assert set(learned().found) == heard - {("sil", "sil")}
-    assert {(b.status, b.source) for b in learned().offered.values()} == {("suggestion", GUESSED)}
+    assert len(learned().offered) + len(learned().found) == 22 * 22 - 1
+    assert {b.status for b in learned().offered.values()} == {"suggestion"}
 
 
 def test_one_clip_teaches_its_own_pairs():
@@ -140,13 +140,3 @@ def test_poses_of_another_set_stay_out_of_it():
     assert made.poses == english().poses
     assert made.settings == Settings.smartbody()
     assert all(isinstance(b, Bigram) for b in made.bigrams.values())
-
-
-@pytest.mark.parametrize("tolerance", [0.0, 0.02, 0.06])
-def test_simplifying_stays_within_its_tolerance(tolerance):
-    t = np.linspace(0, 1, 60)
-    v = np.random.default_rng(1).random(60).cumsum() / 60
-    keep = simplified(t, v, tolerance)
-    assert np.abs(np.interp(t, t[keep], v[keep]) - v).max() <= tolerance + 1e-12
-    assert keep[0] == 0
-    assert keep[-1] == 59
