@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import QByteArray, Qt, Signal
+from PySide6.QtCore import QByteArray, QEvent, Qt, Signal
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeyEvent, QPalette, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QDockWidget,
@@ -26,7 +26,7 @@ from widgets.canvas.curve_panel import CurvePanel
 from widgets.canvas.pose_list import PoseList
 from widgets.overlay.stage_panel import StagePanel
 from widgets.picker.bigram_picker import BigramPicker
-from widgets.picker.weak_list import WeakList
+from widgets.picker.weak_panel import WeakPanel
 from widgets.preview.face_view import FaceView
 from widgets.preview.mapping_panel import MappingPanel
 from widgets.preview.weights_bars import WeightsBars
@@ -49,10 +49,12 @@ class MainWindow(QMainWindow):
 
     play_wanted()  Space, where nothing that has the focus wants it
     dropped(Path)  a file or folder was dropped on the window
+    let_go()       a key was released, or another window came to the front
     """
 
     play_wanted = Signal()
     dropped = Signal(Path)
+    let_go = Signal()
 
     def __init__(self, document: Document) -> None:
         super().__init__()
@@ -65,7 +67,8 @@ class MainWindow(QMainWindow):
         self.may_close: Callable[[], bool] = lambda: True
 
         self.picker = BigramPicker()
-        self.weak_list = WeakList()
+        self.weak_panel = WeakPanel()
+        self.weak_list = self.weak_panel.list
         self.header = CanvasHeader()
         self.bigram_transport = BigramTransport()
         self.pose_list = PoseList()
@@ -114,6 +117,18 @@ class MainWindow(QMainWindow):
             self.play_wanted.emit()
         else:
             super().keyPressEvent(event)
+
+    def keyReleaseEvent(self, event: QKeyEvent) -> None:
+        """Qt's hook: what lasts while a key is held ends."""
+        super().keyReleaseEvent(event)
+        if not event.isAutoRepeat():
+            self.let_go.emit()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Qt's hook: a key let go in another window is never heard of here."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.ActivationChange and not self.isActiveWindow():
+            self.let_go.emit()
 
     def showEvent(self, event: QShowEvent) -> None:
         """Give the docks their first sizes once the window has its own."""
@@ -196,7 +211,7 @@ class MainWindow(QMainWindow):
     def _docks(self) -> None:
         left, right, below = _Area.LeftDockWidgetArea, _Area.RightDockWidgetArea, _Area.BottomDockWidgetArea
         self.bigrams_dock = self.add_dock("bigrams", self.tr("Bigrams"), self.picker, left)
-        self.weak_dock = self.add_dock("weak", self.tr("Weak bigrams"), self.weak_list, left)
+        self.weak_dock = self.add_dock("weak", self.tr("Weak bigrams"), self.weak_panel, left)
         self.preview_dock = self.add_dock("preview", self.tr("Preview"), self.face_view, right)
         self.weights_dock = self.add_dock("weights", self.tr("Pose weights"), self.weights, right)
         self.settings_dock = self.add_dock("settings", self.tr("Pipeline settings"), self.settings_panel, right)
