@@ -189,7 +189,7 @@ def _colour(colours: Colours, patches: list[_Patch], plans: list[_Plan]) -> None
         if box is not None:
             finer = colours.finer(plan.primitive, patch.positions, patch.triangles, box, room)
             room -= len(finer.triangles) - len(patch.triangles)
-        surface = colours.of(plan.primitive, count, finer)
+        surface = colours.of(plan.primitive, plan.title, count, finer)
         if finer.rounds:
             if not patch.normals.any():  # those of the flat triangles as they were, or facets would show
                 patch.normals = VertexNormals(patch.triangles, seam_groups(patch.positions)).of(patch.positions)
