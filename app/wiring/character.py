@@ -48,6 +48,7 @@ class Character(QObject):
         view, preview = self._window.face_view, self._preview
         self._faces.opened.connect(self._opened)
         self._faces.failed.connect(self._failed)
+        self._faces.reading.connect(self._window.hint_label.setText)
         preview.frame_ready.connect(view.set_frame)
         preview.failed.connect(lambda reason: view.set_message(reason, retry=True))
         view.orbited.connect(preview.orbit)
