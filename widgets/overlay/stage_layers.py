@@ -51,6 +51,9 @@ class RowPlace:
         return np.clip(self.axis.px(t), -4000.0, self.axis.x1 + 4000.0), self.base - self.tall * v
 
 
+#: The final curve before the last edit.
+_GHOST = StageStyle("Before", theme.MUTED, 1.0, ())
+
 Draw = Callable[[QPainter, RowPlace, PoseLines, StageStyle], None]
 
 
@@ -178,10 +181,9 @@ LAYERS: tuple[Layer, ...] = (
 )
 
 
-def draw_ghost(painter: QPainter, place: RowPlace, lines: PoseLines) -> None:
-    """The final curve as it was before, in grey, under everything."""
-    painter.setPen(QPen(theme.GHOST, 1))
-    _draw_thin(painter, place, [lines.stage["magenta"]])
+def draw_ghost(painter: QPainter, place: RowPlace, before: PoseLines, now: PoseLines) -> None:
+    """Under everything, the final curve as it was before, in grey where it was another one."""
+    _draw_change(painter, place, now.stage["magenta"], before.stage["magenta"], _GHOST)
 
 
 def draw_origin(painter: QPainter, place: RowPlace, curve: Line, style: StageStyle) -> None:

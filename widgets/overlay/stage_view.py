@@ -106,7 +106,7 @@ class StageView(QWidget):
         self._following = on
 
     def set_ghost(self, stages: Stages | None) -> None:
-        """Another result, whose final curves are drawn grey below; None for none."""
+        """Another result, whose final curves are drawn grey below where they differ; None for none."""
         before, self._ghost = self._ghost, {} if stages is None else pose_lines(stages)
         for pose in {*before, *self._ghost}:
             now = self._ghost.get(pose)
@@ -311,7 +311,7 @@ class StageView(QWidget):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
         painter.setClipRect(QRectF(axis.x0 - 2, row.top, axis.x1 - axis.x0 + 4, row.height))
         if (ghost := self._ghost.get(row.pose)) is not None:
-            draw_ghost(painter, place, ghost)
+            draw_ghost(painter, place, ghost, lines)
         for layer in LAYERS:
             if layer.name in self._shown:
                 layer.draw(painter, place, lines, self._styles[layer.name])
