@@ -214,6 +214,9 @@ class Wiring(QObject):
         w.missing_label.setToolTip(names)
 
     def _show_weak(self) -> None:
+        if self._session.in_gesture:  # the hand comes first
+            self._late.start()
+            return
         w, stages = self._window, self._session.stages
         weak = weak_bigrams(stages, self._session.curve_set) if stages is not None else []
         w.weak_list.set_rows([WeakRow(x.pair, self._why(x), x.time, x.uses, x.severity > 0.2) for x in weak])

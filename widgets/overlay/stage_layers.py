@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 import pyqtgraph as pg
 from numpy.typing import NDArray
-from PySide6.QtCore import QLineF, QPointF, Qt
-from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
+from PySide6.QtCore import QLineF, Qt
+from PySide6.QtGui import QColor, QPainter, QPen
 
 from .. import theme
 from ..theme import StageStyle
@@ -148,11 +148,12 @@ def _draw_change(painter: QPainter, place: RowPlace, before: Line, after: Line, 
         painter.setBrush(fill)
         # The edges are drawn as lines anyway, and without antialiasing a fill costs a tenth.
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
-        xs, top, bottom = x.tolist(), upper.tolist(), (place.base - place.tall * changed.before).tolist()
+        lower = place.base - place.tall * changed.before
         for a, b in _runs(changed.differs):
-            over = [QPointF(xs[k], top[k]) for k in range(a, b + 1)]
-            under = [QPointF(xs[k], bottom[k]) for k in range(b, a - 1, -1)]
-            painter.drawPolygon(QPolygonF(over + under))
+            there = slice(a, b + 1)
+            xs = np.concatenate((x[there], x[there][::-1]))
+            ys = np.concatenate((upper[there], lower[there][::-1]))
+            painter.drawPolygon(pg.functions.arrayToQPolygonF(xs, ys))
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
     painter.setPen(style.pen())
