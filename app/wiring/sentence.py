@@ -33,7 +33,7 @@ class Sentence(QObject):
         w.transport.to_start.connect(self.to_start)
         w.transport.loop_toggled.connect(self.set_loop)
         w.transport.speed_changed.connect(player.set_speed)
-        w.stage_panel.scrubbed.connect(self._preview.scrub)
+        w.stage_panel.scrubbed.connect(lambda seconds: self._preview.scrub(seconds, aloud=True))
         w.stage_panel.loop_range_changed.connect(self._set_loop_range)
         player.playing_changed.connect(w.transport.set_playing)
         player.playing_changed.connect(w.stage_panel.set_following)
