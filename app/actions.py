@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QMainWindow
 from widgets import theme
 from widgets.canvas.keymaps import KEYMAPS, NEUTRAL
 
+from .layouts import PRESETS
 from .menus import Registry
 
 
@@ -105,14 +106,24 @@ class Actions:
         menu.line()
         self.safe_colours = menu.add(
             "view.safe-colours",
-            tr("Co&lours Safe for Every Eye"),
+            tr("Colours &Safe for Every Eye"),
             (),
             tr("Stage colours that remain apart without full colour vision"),
             checked=False,
         )
-        self.default_layout = menu.add(
-            "view.reset-layout", tr("&Reset Layout"), (), tr("Put all docks back in their places")
+        menu.line()
+        layouts = self.layouts_menu = menu.submenu(tr("&Layout"))
+        self.layouts = [
+            layouts.add(
+                f"layout.{name}", tr(preset.title), f"Ctrl+Alt+{i}", tr("Put the docks in their places for this")
+            )
+            for i, (name, preset) in enumerate(PRESETS.items(), 1)
+        ]
+        layouts.line()
+        self.save_layout = layouts.add(
+            "layout.save", tr("&Save This Layout…"), (), tr("Keep the docks as they are now, under a name")
         )
+        self.remove_layout = layouts.add("layout.remove", tr("Re&move a Layout…"), (), tr("Forget a saved layout"))
         self.docks_menu = menu.submenu(tr("&Docks"))
 
     def _bigram(self) -> None:
@@ -137,6 +148,19 @@ class Actions:
         tr, menu = self._tr, self.registry.menu(self._tr("&Sentence"))
         self.sentence_menu = menu
         self.sentence = menu.add("sentence.type", tr("&Type a Sentence"), "Ctrl+L", tr("Go to the sentence"))
+        menu.line()
+        self.pin_sentence = menu.add(
+            "sentence.pin", tr("&Pin This Sentence"), "Ctrl+Shift+P", tr("Keep it in the list of test sentences")
+        )
+        self.next_sentence = menu.add(
+            "sentence.next", tr("&Next Pinned Sentence"), "Alt+Down", tr("Say the next sentence of the list")
+        )
+        self.previous_sentence = menu.add(
+            "sentence.previous", tr("P&revious Pinned Sentence"), "Alt+Up", tr("Say the previous sentence of the list")
+        )
+        self.import_sentences = menu.add(
+            "sentence.import", tr("&Import Sentences…"), (), tr("Pin the lines of a text file")
+        )
 
     def _playback(self) -> None:
         tr, menu = self._tr, self.registry.menu(self._tr("&Playback"))

@@ -144,6 +144,7 @@ QLineEdit{{background:{background};border:1px solid {border};border-radius:4px;p
 QLineEdit:focus{{border-color:{accent}}}
 QToolButton{{padding:4px;border:1px solid transparent;border-radius:4px}} QToolButton:hover{{background:{border}}}
 QToolButton:checked{{background:{checked}}} QToolButton:focus{{border-color:{accent}}}
+QAbstractItemView{{selection-background-color:{checked}}}
 QToolTip{{color:{text};background:{raised};border:1px solid {border};padding:3px 5px}}
 """
 

@@ -26,11 +26,13 @@ from ..preview import BIGRAM_SECONDS
 from .before_after import BeforeAfter
 from .character import Character
 from .keys import KeysOfWindow
+from .layouts import Layouts
 from .mapping import Mapping
 from .open_bigram import OpenBigram
 from .palette import Palette
 from .parts import Parts
-from .sentence import RATE, VOICE, Sentence
+from .sentence import RATE, Sentence
+from .sentences import Sentences
 
 #: What may lag a moment behind a drag does so for this long.
 LATE_MS = 120
@@ -55,10 +57,12 @@ class Wiring(QObject):
         self._late.timeout.connect(self._show_weak)
         self.bigram = OpenBigram(parts, self)
         self.sentence = Sentence(parts, self)
+        self.sentences = Sentences(parts, self.sentence, self)
         self.character = Character(parts, self)
         self.mapping = Mapping(parts, self)
         self.palette = Palette(parts, self.bigram, self.sentence, self)
         self.keys = KeysOfWindow(parts, self)
+        self.layouts = Layouts(parts, self.keys.shortcuts, self)
         self.before_after = BeforeAfter(parts, self)
         self.bigram.opened.connect(self.before_after.forget)
         self._connect_document()
@@ -91,7 +95,7 @@ class Wiring(QObject):
         w.bigram_transport.play_toggled.connect(preview.toggle_bigram)
         w.bigram_transport.length_changed.connect(preview.set_bigram_length)
         w.settings_panel.settings_changed.connect(self._settings_wanted)
-        w.picker.search_wanted.connect(lambda text: self._search.request(text, VOICE, RATE))
+        w.picker.search_wanted.connect(lambda text: self._search.request(text, self.sentence.voice, RATE))
         self._search.spoken.connect(self._word_found)
         self._search.failed.connect(self._word_not_found)
         preview.bigram_player.playing_changed.connect(w.bigram_transport.set_playing)
@@ -119,7 +123,6 @@ class Wiring(QObject):
             (a.play_bigram, self._preview.toggle_bigram),
             (a.to_start, self.sentence.to_start),
             (a.reset_view, self._preview.reset_view),
-            (a.default_layout, w.default_layout),
             (a.about, self._about),
         ):
             action.triggered.connect(lambda _=False, act=act: act())
@@ -280,14 +283,16 @@ class Wiring(QObject):
         self.keys.restore()
         self.character.restore()
         self.sentence.set_loop(state.flag("loop", True))
-        w.transport.set_speed(state.number("speed", 1.0))
+        w.voice_bar.set_speed(state.number("speed", 1.0))
         self._preview.player.set_speed(state.number("speed", 1.0))
+        self.sentence.set_voice(state.text("voice"))
 
     def remember(self) -> None:
         """Keep this time's layout."""
         state, w, player = self._state, self._window, self._preview.player
         self.character.remember()
         self.mapping.close()
+        self.sentences.remember()
         state.put("geometry", w.saveGeometry())
         state.put("docks", w.saveState())
         state.put("order of phones", w.picker.order_name)
@@ -295,4 +300,5 @@ class Wiring(QObject):
         state.put("safe colours", w.actions_.safe_colours.isChecked())
         state.put("loop", player.looping)
         state.put("speed", player.speed)
+        state.put("voice", self.sentence.voice)
         self._late.stop()
