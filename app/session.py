@@ -46,6 +46,11 @@ class Session(QObject):
         return self._shown
 
     @property
+    def poses(self) -> tuple[str, ...]:
+        """The poses of the set, in the order of all weights."""
+        return self._shown.poses
+
+    @property
     def in_gesture(self) -> bool:
         """Whether a gesture is being shown that the document does not have yet."""
         return self._preview is not None

@@ -91,7 +91,10 @@ class Wiring(QObject):
         w.canvas.hint_changed.connect(w.hint_label.setText)
         w.canvas.play_wanted.connect(preview.toggle_bigram)
         w.header.snap_toggled.connect(w.canvas.set_snap)
-        w.header.frame_all_wanted.connect(w.canvas.frame_all)
+        w.header.polygon_toggled.connect(w.canvas.set_polygon)
+        w.header.action_wanted.connect(w.canvas.act)
+        w.canvas.keys_changed.connect(w.header.set_keys)
+        w.header.set_keys(w.canvas.keys)
         w.bigram_transport.play_toggled.connect(preview.toggle_bigram)
         w.bigram_transport.length_changed.connect(preview.set_bigram_length)
         w.settings_panel.settings_changed.connect(self._settings_wanted)
@@ -122,7 +125,7 @@ class Wiring(QObject):
             (a.play, self._preview.toggle_sentence),
             (a.play_bigram, self._preview.toggle_bigram),
             (a.to_start, self.sentence.to_start),
-            (a.reset_view, self._preview.reset_view),
+            (a.reset_view, w.face_view.reset_wanted.emit),
             (a.about, self._about),
         ):
             action.triggered.connect(lambda _=False, act=act: act())

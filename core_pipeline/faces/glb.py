@@ -20,7 +20,7 @@ from core_pipeline.faces.framing import frame
 from core_pipeline.faces.gltf_colours import Colours
 from core_pipeline.faces.gltf_file import GltfFile, Json
 from core_pipeline.faces.gltf_scene import Matrix, Scene
-from core_pipeline.faces.limits import LARGEST, MAX_MORPH_BYTES, MAX_VERTICES
+from core_pipeline.faces.limits import LARGEST, MAX_MORPH_BYTES, MAX_TRIANGLES, MAX_VERTICES
 from core_pipeline.faces.normals import VertexNormals, seam_groups, shape_normals
 from core_pipeline.faces.vrm import expressions
 from core_pipeline.files.json_text import shown
@@ -72,19 +72,22 @@ def _planned(gltf: GltfFile, scene: Scene) -> list[_Plan]:
         plans += _primitives(gltf, node, matrix)
         if len(plans) > MAX_PARTS:
             raise gltf.fail(f"it has more than {MAX_PARTS:,} parts; export the head alone.")
-    vertices, shapes = 0, set()
+    vertices, corners, shapes = 0, 0, set()
     for plan in plans:
         attributes = gltf.part(plan.primitive, "attributes")
         if "POSITION" not in attributes:
             raise gltf.fail(f"mesh “{plan.title}” has no positions; export the file again.")
         vertices += gltf.count(attributes["POSITION"])
+        corners += gltf.count(plan.primitive["indices"]) if "indices" in plan.primitive else 0
         shapes |= set(plan.names)
     if not shapes:
         raise gltf.fail("it has no morph targets (blendshapes); export the face with shape keys.")
     if vertices > MAX_VERTICES:
         raise gltf.fail(f"it has {vertices:,} vertices, more than {MAX_VERTICES:,}; reduce the mesh.")
+    if corners > 3 * MAX_TRIANGLES:
+        raise gltf.fail(f"it has {corners // 3:,} triangles, more than {MAX_TRIANGLES:,}; reduce the mesh.")
     if vertices * len(shapes) * 24 > MAX_MORPH_BYTES:
-        raise gltf.fail(f"{vertices:,} vertices × {len(shapes)} shapes need more than 1 GB; reduce the mesh.")
+        raise gltf.fail(f"{vertices:,} vertices × {len(shapes)} shapes need more than 512 MB; reduce the mesh.")
     return plans
 
 

@@ -21,6 +21,8 @@ from core_pipeline.faces.gltf_file import GltfFile, Json
 
 #: Pixels a picture may announce; it is not unpacked before.
 MAX_PIXELS = 8192 * 8192
+#: WebP is unpacked by its library, into more than one copy.
+MAX_PIXELS_WEBP = MAX_PIXELS // 4
 #: Pictures are looked up at this size: one value per vertex wants no more.
 _SIDE = 1024
 _VISIBLE = 0.4
@@ -164,7 +166,7 @@ class Colours:
         try:
             with Image.open(io.BytesIO(raw), formats=("PNG", "JPEG", "WEBP")) as image:
                 width, height = image.size
-                if width * height > MAX_PIXELS:
+                if width * height > (MAX_PIXELS_WEBP if image.format == "WEBP" else MAX_PIXELS):
                     raise gltf.fail(f"image {index} has {width:,} × {height:,} pixels, more than we take; reduce it.")
                 image.draft("RGB", (_SIDE, _SIDE))
                 image.thumbnail((_SIDE, _SIDE), Image.Resampling.BOX)

@@ -50,7 +50,7 @@ def dots_along(points: Array) -> Array:
 
 
 class CurveItem(pg.GraphicsObject):
-    """The one item of the canvas. Reads the controller; is told ghost, played curves and labels."""
+    """The one item of the canvas. Reads the controller; is told ghost, played curves, labels, what to leave out."""
 
     def __init__(self, controller: CurveController) -> None:
         super().__init__()
@@ -59,6 +59,7 @@ class CurveItem(pg.GraphicsObject):
         self.played: Mapping[str, tuple[Array, Array]] = {}
         self.phones: tuple[str, str] = ("", "")
         self.empty_text = ""
+        self.polygon = True
 
     def boundingRect(self) -> QRectF:
         """Constant, larger than any view: the scene index is never rebuilt and nothing rescales."""
@@ -132,8 +133,7 @@ class CurveItem(pg.GraphicsObject):
     def _paint_curve(self, painter: QPainter, pose: str) -> None:
         colour = self._colour(pose)
         keys = self.controller.keys_px(pose)
-        painter.setPen(QPen(theme.mix(colour, theme.BACKGROUND, 0.35), 1))
-        painter.drawPolyline(polygon(keys))
+        self._paint_polygon(painter, keys, theme.mix(colour, theme.BACKGROUND, 0.35))
         painter.setPen(QPen(theme.mix(colour, theme.BACKGROUND, 0.8), 1))
         painter.drawPolyline(polygon(self.controller.spline_px(pose)))
         painter.setPen(Qt.PenStyle.NoPen)
@@ -142,11 +142,15 @@ class CurveItem(pg.GraphicsObject):
             painter.drawEllipse(QPointF(x, y), 2.8, 2.8)
         painter.setBrush(Qt.BrushStyle.NoBrush)
 
+    def _paint_polygon(self, painter: QPainter, keys: Array, colour: QColor) -> None:
+        if self.polygon:
+            painter.setPen(QPen(colour, 1))
+            painter.drawPolyline(polygon(keys))
+
     def _paint_active(self, painter: QPainter, pose: str) -> None:
         colour = self._colour(pose)
         keys = self.controller.keys_px(pose)
-        painter.setPen(QPen(theme.mix(colour, theme.BACKGROUND, 0.6), 1))
-        painter.drawPolyline(polygon(keys))
+        self._paint_polygon(painter, keys, theme.mix(colour, theme.BACKGROUND, 0.6))
         pen = QPen(colour, BOLD, Qt.PenStyle.SolidLine, Qt.PenCapStyle.SquareCap, Qt.PenJoinStyle.BevelJoin)
         painter.setPen(pen)
         points = self.controller.spline_px(pose)
