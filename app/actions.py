@@ -144,6 +144,26 @@ class Actions:
             "bigram.previous", tr("P&revious in the Sentence"), "Alt+Left", tr("The sentence's previous bigram")
         )
 
+        menu.line()
+        self.new_tab = menu.add(
+            "bigram.new-tab",
+            tr("In a New &Tab"),
+            "Ctrl+T",
+            tr("Keep this bigram in its tab and open its swapped pair in another"),
+        )
+        self.close_tab = menu.add("bigram.close-tab", tr("&Close the Tab"), "Ctrl+W", tr("Close this bigram's tab"))
+        self.next_tab = menu.add("bigram.next-tab", tr("Ne&xt Tab"), "Ctrl+Tab", tr("The bigram of the next tab"))
+        self.previous_tab = menu.add(
+            "bigram.previous-tab", tr("Pre&vious Tab"), "Ctrl+Shift+Tab", tr("The bigram of the previous tab")
+        )
+        self.beside = menu.add(
+            "bigram.beside",
+            tr("Swapped Pair &Beside It"),
+            "Ctrl+B",
+            tr("A second canvas: b-a beside a-b, or any bigram that is pinned there"),
+            checked=False,
+        )
+
     def _sentence(self) -> None:
         tr, menu = self._tr, self.registry.menu(self._tr("&Sentence"))
         self.sentence_menu = menu

@@ -34,6 +34,8 @@ from widgets.sentence_bar import SentenceBar
 from widgets.settings.settings_panel import SettingsPanel
 from widgets.transport import Transport
 from widgets.voice_bar import VoiceBar
+from widgets.window.beside_panel import BesidePanel
+from widgets.window.bigram_tabs import BigramTabs
 from widgets.window.keymap_question import KeymapQuestion
 from widgets.window.sentence_list import SentenceList
 
@@ -73,6 +75,8 @@ class MainWindow(QMainWindow):
         self.pose_list = PoseList()
         self.canvas = CurveCanvas()
         self.curve_panel = CurvePanel(self.canvas)
+        self.beside = BesidePanel()
+        self.bigram_tabs = BigramTabs()
         self.face_view = FaceView()
         self.weights = WeightsBars()
         self.settings_panel = SettingsPanel()
@@ -146,6 +150,14 @@ class MainWindow(QMainWindow):
         self._layout = name
         arrange(self, name, self._homes, self._hidden)
 
+    def show_beside(self, on: bool) -> None:
+        """One canvas, or two of the same width; Space plays where there is no room for the button."""
+        self.bigram_transport.setVisible(not on)
+        poses = self._canvases.sizes()[0]
+        room = self._canvases.width() - poses
+        self.beside.setVisible(on)
+        self._canvases.setSizes([poses, room // 2, room // 2] if on else [poses, room, 0])
+
     def _toolbar(self) -> None:
         bar = QToolBar(self.tr("Sentence"))
         bar.setObjectName("sentence bar")
@@ -167,19 +179,26 @@ class MainWindow(QMainWindow):
         row.setSpacing(6)
         row.addWidget(self.header, 1)
         row.addWidget(self.bigram_transport)
+        first = QWidget()
+        column = QVBoxLayout(first)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addWidget(head)
+        column.addWidget(self.curve_panel, 1)
         body = QSplitter(Qt.Orientation.Horizontal)
         body.setHandleWidth(3)
-        body.addWidget(self.pose_list)
-        body.addWidget(self.curve_panel)
-        body.setStretchFactor(0, 0)
-        body.setStretchFactor(1, 1)
+        for i, part in enumerate((self.pose_list, first, self.beside)):
+            body.addWidget(part)
+            body.setStretchFactor(i, min(i, 1))
         body.setChildrenCollapsible(False)
+        self._canvases = body
+        self.beside.set_head_height(head.sizeHint().height())
         centre = QWidget()
         column = QVBoxLayout(centre)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
         column.addWidget(self.keymap_question)
-        column.addWidget(head)
+        column.addWidget(self.bigram_tabs)
         column.addWidget(body, 1)
         centre.setMinimumSize(360, 180)
         self.setCentralWidget(centre)

@@ -24,6 +24,7 @@ from widgets.picker.weak_list import WeakRow
 
 from ..preview import BIGRAM_SECONDS
 from .before_after import BeforeAfter
+from .beside import Beside
 from .character import Character
 from .keys import KeysOfWindow
 from .layouts import Layouts
@@ -33,6 +34,7 @@ from .palette import Palette
 from .parts import Parts
 from .sentence import RATE, Sentence
 from .sentences import Sentences
+from .tabs import Tabs
 
 #: What may lag a moment behind a drag does so for this long.
 LATE_MS = 120
@@ -56,6 +58,7 @@ class Wiring(QObject):
         self._late.setInterval(LATE_MS)
         self._late.timeout.connect(self._show_weak)
         self.bigram = OpenBigram(parts, self)
+        self.tabs = Tabs(parts, self.bigram, self)
         self.sentence = Sentence(parts, self)
         self.sentences = Sentences(parts, self.sentence, self)
         self.character = Character(parts, self)
@@ -66,6 +69,7 @@ class Wiring(QObject):
         self.before_after = BeforeAfter(parts, self)
         self.bigram.opened.connect(self.before_after.forget)
         self._connect_document()
+        self.beside = Beside(parts, self.bigram, self)  # after: it follows what the document has told the canvas
         self._connect_views()
         self._connect_menu()
         self._set_replaced()
@@ -163,7 +167,7 @@ class Wiring(QObject):
         self._show_statuses()
         if pair == self.bigram.pair:
             self.bigram.show_curves()
-        else:
+        elif pair != self.beside.pair:
             self.bigram.open(pair)  # undo reached another bigram: show what it did
 
     def _settings_changed(self) -> None:

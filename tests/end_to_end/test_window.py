@@ -43,7 +43,7 @@ def test_the_palette_opens_bigrams_words_and_does_commands(editor: Editor, qtbot
     assert editor.wiring.bigram.pair == ("f", "ih")
 
     press(Qt.Key.Key_K, CTRL)
-    type_text("swapped")
+    type_text("open swapped")
     press(Qt.Key.Key_Return)
     assert editor.wiring.bigram.pair == ("ih", "f")
 
@@ -174,3 +174,75 @@ def test_another_voice_says_the_same(editor: Editor, qtbot: QtBot) -> None:
     assert british.schedule.phones != american.schedule.phones
     editor.wiring.remember()
     assert editor.state.text("voice") == box.currentData() == editor.wiring.sentence.voice
+
+
+def test_tabs_hold_several_bigrams_of_one_document(editor: Editor, qtbot: QtBot) -> None:
+    w, tabs = editor.window, editor.wiring.tabs
+    editor.wiring.bigram.open(("f", "ah"))
+    w.canvas.setFocus()
+    assert not w.bigram_tabs.isVisible()
+    press(Qt.Key.Key_T, CTRL)
+    assert w.bigram_tabs.titles == ["F – Ah", "Ah – F"]
+    assert editor.wiring.bigram.pair == ("ah", "f")
+    editor.wiring.bigram.open(("l", "ow"))
+    assert w.bigram_tabs.titles == ["F – Ah", "L – Ow"]
+
+    before = w.canvas.curves
+    QTest.mouseClick(w.bigram_tabs, Qt.MouseButton.LeftButton, pos=w.bigram_tabs.tabRect(0).center())
+    assert editor.wiring.bigram.pair == ("f", "ah")
+    w.canvas.setFocus()
+    press(Qt.Key.Key_A, CTRL)
+    press(Qt.Key.Key_Up)
+    assert editor.document.undo_stack.count() == 1
+    press(Qt.Key.Key_Tab, CTRL)
+    assert editor.wiring.bigram.pair == ("l", "ow")
+    assert w.canvas.curves == before
+    press(Qt.Key.Key_Z, CTRL)  # undo shows what it did, in the tab that has it
+    assert w.bigram_tabs.titles == ["F – Ah", "L – Ow"]
+    assert (editor.wiring.bigram.pair, w.bigram_tabs.currentIndex()) == (("f", "ah"), 0)
+
+    tabs._reordered(0, 1)
+    assert tabs.pairs == [("l", "ow"), ("f", "ah")]
+    press(Qt.Key.Key_W, CTRL)
+    assert tabs.pairs == [("l", "ow")]
+    assert editor.wiring.bigram.pair == ("l", "ow")
+    press(Qt.Key.Key_W, CTRL)
+    assert tabs.pairs == [("l", "ow")]
+    press(Qt.Key.Key_T, CTRL)
+    editor.document.new(editor.document.curve_set)
+    assert len(tabs.pairs) == 1
+
+
+def test_a_b_beside_b_a(editor: Editor, qtbot: QtBot) -> None:
+    w, stack = editor.window, editor.document.undo_stack
+    editor.wiring.bigram.open(("f", "ah"))
+    w.canvas.setFocus()
+    press(Qt.Key.Key_B, CTRL)
+    QApplication.processEvents()
+    beside = w.beside
+    assert beside.title == "Ah – F"
+    assert abs(beside.canvas.width() - w.canvas.width()) < 20
+    before = editor.document.curve_set.bigrams["ah", "f"]
+    beside.canvas.setFocus()
+    press(Qt.Key.Key_A, CTRL)
+    press(Qt.Key.Key_Up)
+    assert stack.count() == 1
+    assert editor.document.curve_set.bigrams["ah", "f"] is not before
+    assert editor.wiring.bigram.pair == ("f", "ah")  # the other canvas stays with its own
+    press(Qt.Key.Key_Z, CTRL)
+    assert editor.document.curve_set.bigrams["ah", "f"] is before
+    assert beside.canvas.curves == before.curves
+    assert editor.wiring.bigram.pair == ("f", "ah")
+
+    editor.wiring.bigram.open(("l", "ow"))
+    assert beside.title == "Ow – L"  # follows
+    QTest.mouseClick(beside.pin, Qt.MouseButton.LeftButton)
+    editor.wiring.bigram.open(("f", "ah"))
+    assert beside.title == "Ow – L"  # stays
+    w.pose_list.visibility_changed.emit("open", False)
+    beside.canvas.active_changed.emit("FV")
+    assert w.canvas.active == "FV"
+    QTest.mouseClick(beside.close_button, Qt.MouseButton.LeftButton)
+    assert not beside.isVisible()
+    assert not w.actions_.beside.isChecked()
+    assert editor.wiring.beside.pair is None
