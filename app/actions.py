@@ -125,6 +125,13 @@ class Actions:
         )
         self.remove_layout = layouts.add("layout.remove", tr("Re&move a Layout…"), (), tr("Forget a saved layout"))
         self.docks_menu = menu.submenu(tr("&Docks"))
+        menu.line()
+        self.next_part = menu.add(
+            "view.next-part", tr("&Next Part of the Window"), "F6", tr("Toolbar, canvas, each dock")
+        )
+        self.previous_part = menu.add(
+            "view.previous-part", tr("&Previous Part of the Window"), "Shift+F6", tr("Each dock, canvas, toolbar")
+        )
 
     def _bigram(self) -> None:
         tr, menu = self._tr, self.registry.menu(self._tr("&Bigram"))

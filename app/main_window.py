@@ -41,6 +41,7 @@ from widgets.window.sentence_list import SentenceList
 
 from .actions import Actions
 from .document import Document
+from .focus_ring import FocusRing
 from .layouts import AUTHOR, LOW, arrange
 
 _Area = Qt.DockWidgetArea
@@ -89,11 +90,11 @@ class MainWindow(QMainWindow):
         self.keymap_question = KeymapQuestion()
 
         self.actions_ = Actions(self, document.undo_stack)
-        self._toolbar()
-        self._centre()
+        bar, centre = self._toolbar(), self._centre()
         self._docks()
         self._status()
         self._hidden = [dock.objectName() for dock in self.findChildren(QDockWidget) if dock.isHidden()]
+        self.focus_ring = FocusRing(self, bar, centre)
         self.setAcceptDrops(True)
         self.setMinimumSize(1120, 640)
         self.resize(1600, 1000)
@@ -158,7 +159,7 @@ class MainWindow(QMainWindow):
         self.beside.setVisible(on)
         self._canvases.setSizes([poses, room // 2, room // 2] if on else [poses, room, 0])
 
-    def _toolbar(self) -> None:
+    def _toolbar(self) -> QToolBar:
         bar = QToolBar(self.tr("Sentence"))
         bar.setObjectName("sentence bar")
         bar.setMovable(False)
@@ -171,8 +172,9 @@ class MainWindow(QMainWindow):
         bar.addWidget(self.sentence_bar)
         bar.addWidget(self.voice_bar)
         self.addToolBar(bar)
+        return bar
 
-    def _centre(self) -> None:
+    def _centre(self) -> QWidget:
         head = QWidget()
         row = QHBoxLayout(head)
         row.setContentsMargins(0, 0, 8, 0)
@@ -202,6 +204,7 @@ class MainWindow(QMainWindow):
         column.addWidget(body, 1)
         centre.setMinimumSize(360, 180)
         self.setCentralWidget(centre)
+        return centre
 
     def _docks(self) -> None:
         left, right, below = _Area.LeftDockWidgetArea, _Area.RightDockWidgetArea, _Area.BottomDockWidgetArea

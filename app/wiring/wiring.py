@@ -130,6 +130,8 @@ class Wiring(QObject):
             (a.play_bigram, self._preview.toggle_bigram),
             (a.to_start, self.sentence.to_start),
             (a.reset_view, w.face_view.reset_wanted.emit),
+            (a.next_part, w.focus_ring.go),
+            (a.previous_part, lambda: w.focus_ring.go(-1)),
             (a.about, self._about),
         ):
             action.triggered.connect(lambda _=False, act=act: act())

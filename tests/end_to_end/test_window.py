@@ -221,7 +221,7 @@ def test_a_b_beside_b_a(editor: Editor, qtbot: QtBot) -> None:
     QApplication.processEvents()
     beside = w.beside
     assert beside.title == "Ah – F"
-    assert abs(beside.canvas.width() - w.canvas.width()) < 20
+    assert abs(beside.canvas.width() - w.canvas.width()) < 40
     before = editor.document.curve_set.bigrams["ah", "f"]
     beside.canvas.setFocus()
     press(Qt.Key.Key_A, CTRL)
