@@ -39,6 +39,12 @@ class Actions:
         self.file_menu = menu
         self.new = menu.add("file.new", tr("&New"), "Ctrl+N", tr("Start from the English set, without a file"))
         self.new_empty = menu.add("file.new-empty", tr("New &Empty Set"), (), tr("Start with 441 empty bigrams"))
+        self.new_on_base = menu.add(
+            "file.new-on-base",
+            tr("New &Character Set…"),
+            (),
+            tr("Start a set that stores only what differs from another"),
+        )
         self.open = menu.add("file.open", tr("&Open…"), "Ctrl+O", tr("Open a curve set"))
         self.open_face = menu.add(
             "file.open-face", tr("Open &Face…"), "Ctrl+Shift+O", tr("Show a .glb, .gltf or .vrm of yours")
@@ -57,7 +63,13 @@ class Actions:
         self.save_as = menu.add(
             "file.save-as", tr("Save &As…"), "Ctrl+Shift+S", tr("Save the curve set in another file")
         )
+        self.restore = menu.add(
+            "file.restore", tr("&Restore a Backup…"), (), tr("Go back to what was saved before, as one undo step")
+        )
         menu.line()
+        self.import_script = menu.add(
+            "file.import", tr("&Import…"), "Ctrl+Shift+I", tr("Take a set from a SmartBody diphone script")
+        )
         self.export = menu.add(
             "file.export", tr("E&xport Curve Set…"), "Ctrl+E", tr("Write the curve set as JSON for other programs")
         )

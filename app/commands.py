@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 from PySide6.QtGui import QUndoCommand
 
-from core_pipeline.curve_set import Bigram
+from core_pipeline.curve_set import Bigram, CurveSet
 from core_pipeline.phonemes import Pair
 from core_pipeline.settings import Settings
 
@@ -40,6 +40,24 @@ class EditBigram(QUndoCommand):
     def undo(self) -> None:
         """Put the old bigram back."""
         self._apply(self.pair, self.before)
+
+
+class ChangeSet(QUndoCommand):
+    """The whole set before and after: a restored backup, a merge, another phoneme set, many bigrams at once."""
+
+    def __init__(self, apply: Callable[[CurveSet], None], before: CurveSet, after: CurveSet, label: str) -> None:
+        super().__init__(label)
+        self._apply = apply
+        self.before = before
+        self.after = after
+
+    def redo(self) -> None:
+        """Put the new set in place."""
+        self._apply(self.after)
+
+    def undo(self) -> None:
+        """Put the old set back."""
+        self._apply(self.before)
 
 
 class ChangeSettings(QUndoCommand):

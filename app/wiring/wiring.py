@@ -22,6 +22,7 @@ from core_pipeline.settings import Settings
 from core_pipeline.speech.utterance import Utterance
 from widgets.picker.weak_list import WeakRow
 
+from ..exchange import Exchange
 from ..preview import BIGRAM_SECONDS
 from .before_after import BeforeAfter
 from .beside import Beside
@@ -57,6 +58,7 @@ class Wiring(QObject):
         self._late.setSingleShot(True)
         self._late.setInterval(LATE_MS)
         self._late.timeout.connect(self._show_weak)
+        self.exchange = Exchange(parts.files, parts.session)
         self.bigram = OpenBigram(parts, self)
         self.tabs = Tabs(parts, self.bigram, self)
         self.sentence = Sentence(parts, self)
@@ -87,6 +89,7 @@ class Wiring(QObject):
         self._document.file_changed.connect(self._show_file)
         self._session.stages_changed.connect(self._stages_changed)
         self._files.autosave.failed.connect(self._window.hint_label.setText)
+        self._files.keeper.failed.connect(self._window.hint_label.setText)
         self._files.autosave.saved.connect(self._show_saved)
 
     def _connect_views(self) -> None:
@@ -118,8 +121,11 @@ class Wiring(QObject):
             (a.open, self._files.ask_open),
             (a.save, self._files.save),
             (a.save_as, self._files.ask_save_as),
-            (a.export, self._files.ask_export),
-            (a.export_weights, self._files.ask_export_weights),
+            (a.new_on_base, self.exchange.ask_new_on_base),
+            (a.import_script, self.exchange.ask_import),
+            (a.restore, self._files.ask_restore),
+            (a.export, self.exchange.ask_export),
+            (a.export_weights, self.exchange.ask_export_weights),
             (a.quit, w.close),
             (a.find, w.picker.search.setFocus),
             (a.sentence, w.sentence_bar.field.setFocus),
@@ -260,8 +266,10 @@ class Wiring(QObject):
     # ── the window ───────────────────────────────────────────────────────────────────────────────
 
     def _open_dropped(self, path: Path) -> None:
-        """A curve set, or else a face."""
-        if path.suffix.lower() != ".json":
+        """A curve set, a diphone script, or else a face."""
+        if path.suffix.lower() == ".py":
+            self.exchange.import_script(path)
+        elif path.suffix.lower() != ".json":
             self.character.open(path)
         elif self._files.may_discard():
             self._files.open(path)

@@ -86,8 +86,8 @@ def test_type_drag_undo_save_reload_export(editor: Editor, qtbot: QtBot, tmp_pat
     saved, exported, weights = tmp_path / "mine.json", tmp_path / "engine.min.json", tmp_path / "weights.csv"
     editor.document.save(saved)
     assert not editor.window.isWindowModified()
-    assert editor.files.export(exported)
-    assert editor.files.export_weights(weights)
+    assert editor.wiring.exchange.export(exported)
+    assert editor.wiring.exchange.export_weights(weights)
     text = saved.read_text("utf-8")
 
     editor.files.open(saved)
