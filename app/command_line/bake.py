@@ -13,7 +13,7 @@ from core_pipeline.speech.utterance import Utterance
 from core_pipeline.weights import bake as bake_weights
 
 from .speech_options import source_of, with_map
-from .steps import hear, load_curves, save_sound, tell_missing
+from .steps import hear, load_curves, load_model, save_sound, tell_missing
 
 #: Nine hours at 30 frames a second.
 MAX_FRAMES = 1_000_000
@@ -29,7 +29,7 @@ def bake(options: argparse.Namespace) -> int:
         raise UserError("Nothing to write: name a file with --out weights.json (or .csv), or with --stages.")
     if not 1 <= options.fps <= 1000:
         raise UserError(f"{options.fps:g} frames per second is not possible: choose 1 to 1000 for --fps.")
-    _refuse_same_file([options.curves, options.schedule, options.audio, options.labels], outputs)
+    _refuse_same_file([options.curves, options.schedule, options.method, options.audio, options.labels], outputs)
     curve_set = with_map(load_curves(options), options.phoneme_map)
     settings = curve_set.effective_settings
     if options.spline:
@@ -46,8 +46,12 @@ def bake(options: argparse.Namespace) -> int:
             "choose a lower --fps or a shorter schedule."
         )
     stages = pipeline.run(schedule, curve_set, settings)
-    tell_missing(stages)
-    if options.out:
+    if options.method is None:
+        tell_missing(stages)
+    if options.out and options.method is not None:
+        model = load_model(options.method)
+        weights_files.save(model.synthesize(schedule, model.poses, options.fps), options.out)
+    elif options.out:
         weights_files.save(
             bake_weights(stages.magenta, settings.spline, options.fps, snap=not options.no_snap), options.out
         )
