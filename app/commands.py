@@ -13,6 +13,7 @@ from PySide6.QtGui import QUndoCommand
 from core_pipeline.curve_set import Bigram, CurveSet
 from core_pipeline.phonemes import Pair
 from core_pipeline.settings import Settings
+from core_pipeline.speech.utterance import Utterance
 
 
 class EditBigram(QUndoCommand):
@@ -82,6 +83,28 @@ class ChangeSet(QUndoCommand):
     def undo(self) -> None:
         """Put the old set back."""
         self._apply(self.before)
+
+
+#: Edits of what is said, not of the curve set: they leave nothing to save in it.
+SPOKEN_STEPS = ("Move a boundary", "Rename a phone", "Insert a phone", "Remove a phone")
+
+
+class EditUtterance(QUndoCommand):
+    """What is said, before and after."""
+
+    def __init__(self, put: Callable[[Utterance], None], before: Utterance, after: Utterance, label: str) -> None:
+        super().__init__(label)
+        self._put = put
+        self.before = before
+        self.after = after
+
+    def redo(self) -> None:
+        """Say the new one."""
+        self._put(self.after)
+
+    def undo(self) -> None:
+        """Say the old one again."""
+        self._put(self.before)
 
 
 class ChangeSettings(QUndoCommand):

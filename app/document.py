@@ -19,8 +19,9 @@ from core_pipeline.files.atomic import read_bytes
 from core_pipeline.files.curve_set_merge import decided
 from core_pipeline.phonemes import Pair
 from core_pipeline.settings import Settings
+from core_pipeline.speech.utterance import Utterance
 
-from .commands import ChangeSet, ChangeSettings, EditBigram, EditBigrams
+from .commands import SPOKEN_STEPS, ChangeSet, ChangeSettings, EditBigram, EditBigrams, EditUtterance
 
 NUDGE = "Nudge keys"
 
@@ -57,6 +58,8 @@ class Document(QObject):
         self.digest = ""
         self.undo_stack = QUndoStack(self)
         self.undo_stack.cleanChanged.connect(self._clean_changed)
+        self.undo_stack.indexChanged.connect(self._index_changed)
+        self._was_dirty = False
         self._recovered = False
         self._last: EditBigram | None = None
 
@@ -120,6 +123,10 @@ class Document(QObject):
         self.great_change.emit(label)
         self.undo_stack.push(ChangeSet(self._put_set, self.curve_set, after, label))
 
+    def edit_utterance(self, put: Callable[[Utterance], None], before: Utterance, after: Utterance, label: str) -> None:
+        """One edit of the phones that are spoken; the set is not touched by it. label: one of SPOKEN_STEPS."""
+        self.undo_stack.push(EditUtterance(put, before, after, label))
+
     def _extend_nudge(self, pair: Pair, after: Bigram) -> bool:
         """Several presses of an arrow key are one step: give the newest command a new end."""
         last, stack = self._last, self.undo_stack
@@ -157,7 +164,11 @@ class Document(QObject):
     @property
     def is_dirty(self) -> bool:
         """Whether closing now would lose something."""
-        return self._recovered or not self.undo_stack.isClean()
+        stack = self.undo_stack
+        if self._recovered or stack.cleanIndex() < 0:
+            return True
+        first, last = sorted((stack.cleanIndex(), stack.index()))
+        return any(stack.text(i) not in SPOKEN_STEPS for i in range(first, last))
 
     @property
     def title(self) -> str:
@@ -238,7 +249,12 @@ class Document(QObject):
         self.file_changed.emit()
 
     def _clean_changed(self) -> None:
+        self._was_dirty = self.is_dirty
         self.file_changed.emit()
+
+    def _index_changed(self) -> None:
+        if self.is_dirty != self._was_dirty:
+            self._clean_changed()
 
 
 def _digest(data: bytes) -> str:
