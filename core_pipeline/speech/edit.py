@@ -63,7 +63,7 @@ def removed(utterance: Utterance, phone: int) -> Utterance:
     if len(phones) == 1:
         raise UserError("The last phone cannot be removed: rename it instead.")
     del phones[phone]
-    del times[phone if phone else 1]
+    del times[phone or 1]
     return _with(utterance, phones, times)
 
 
