@@ -1,8 +1,9 @@
 """The only place, with its neighbours, where wishes become commands and values reach the views.
 
-open_bigram.py has the canvas and what belongs to it, sentence.py the sentence and its transport,
-character.py the face, mapping.py what makes its poses, palette.py the command palette, keys.py keymaps and
-shortcuts; here is the rest: the document's news, the pipeline's results, settings, search, menus.
+open_bigram.py has the canvas and what belongs to it, sentence.py the sentence and its transport, character.py the
+face, company.py those beside it, face_picker.py their choice, looks.py light and camera, mapping.py what makes a
+face's poses, palette.py the command palette, keys.py keymaps and shortcuts; here is the rest: the document's news,
+the pipeline's results, settings, search, menus.
 """
 
 from __future__ import annotations
@@ -23,7 +24,9 @@ from widgets.picker.weak_list import WeakRow
 
 from ..preview import BIGRAM_SECONDS
 from .character import Character
+from .face_picker import FacePicking
 from .keys import KeysOfWindow
+from .looks import Looks
 from .mapping import Mapping
 from .open_bigram import OpenBigram
 from .palette import Palette
@@ -54,6 +57,8 @@ class Wiring(QObject):
         self.bigram = OpenBigram(parts, self)
         self.sentence = Sentence(parts, self)
         self.character = Character(parts, self)
+        self.picking = FacePicking(parts, self.character, self)
+        self.looks = Looks(parts, self)
         self.mapping = Mapping(parts, self)
         self.palette = Palette(parts, self.bigram, self.sentence, self)
         self.keys = KeysOfWindow(parts, self)
@@ -114,7 +119,6 @@ class Wiring(QObject):
             (a.play, self._preview.toggle_sentence),
             (a.play_bigram, self._preview.toggle_bigram),
             (a.to_start, self.sentence.to_start),
-            (a.reset_view, w.face_view.reset_wanted.emit),
             (a.default_layout, w.default_layout),
             (a.about, self._about),
         ):
@@ -263,6 +267,7 @@ class Wiring(QObject):
         w.restore_layout(state.layout("geometry"), state.layout("docks"))
         w.actions_.safe_colours.setChecked(state.flag("safe colours", False))
         self.keys.restore()
+        self.looks.restore()
         self.character.restore()
         self.sentence.set_loop(state.flag("loop", True))
         w.transport.set_speed(state.number("speed", 1.0))
@@ -272,6 +277,8 @@ class Wiring(QObject):
         """Keep this time's layout."""
         state, w, player = self._state, self._window, self._preview.player
         self.character.remember()
+        self.looks.remember()
+        self.picking.close()
         self.mapping.close()
         state.put("geometry", w.saveGeometry())
         state.put("docks", w.saveState())
