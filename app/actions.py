@@ -47,6 +47,12 @@ class Actions:
         self.open_face_folder = menu.add(
             "file.open-face-folder", tr("Open Face Fol&der…"), (), tr("Show a folder of .obj poses")
         )
+        self.new_set_for_face = menu.add(
+            "file.new-set-for-face",
+            tr("New Curve Set for This Face's &Poses"),
+            (),
+            tr("Start an empty set whose poses are the face's own shapes"),
+        )
         menu.line()
         self.save = menu.add("file.save", tr("&Save"), "Ctrl+S", tr("Save the curve set"))
         self.save_as = menu.add(

@@ -45,10 +45,10 @@ class FileActions(QObject):
         if self.may_discard():
             self.attempt(lambda: self._document.new(curve_set_json.load(resources.english_curves())))
 
-    def new_empty(self) -> None:
-        """Start with nothing but the 21 phonemes and the nine poses."""
+    def new_empty(self, curve_set: CurveSet | None = None) -> None:
+        """Start with nothing but the 21 phonemes and the nine poses, or with an empty set of other poses."""
         if self.may_discard():
-            self._document.new(CurveSet())
+            self._document.new(curve_set or CurveSet())
 
     def ask_open(self) -> None:
         """Choose a file and open it."""

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtCore import QObject, QTimer
+from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QFileDialog
 
+from core_pipeline.errors import UserError
 from core_pipeline.faces.open_face import Opened
+from core_pipeline.faces.pose_set import new_curve_set
 
 from .. import resources
 from .company import Company
@@ -19,7 +21,12 @@ RIGS = "Faces (*.glb *.gltf *.vrm)"
 
 
 class Character(QObject):
-    """Joins the face view, the renderer and the reader of faces."""
+    """Joins the face view, the renderer and the reader of faces.
+
+    set_wanted(CurveSet)  the user wants to draw curves for the face's own poses
+    """
+
+    set_wanted = Signal(object)
 
     def __init__(self, parts: Parts, parent: QObject) -> None:
         super().__init__(parent)
@@ -62,6 +69,7 @@ class Character(QObject):
             self._ours.append(action)
         actions.open_face.triggered.connect(lambda _=False: self._take(self.ask_file(), 0))
         actions.open_face_folder.triggered.connect(lambda _=False: self._take(self.ask_folder(), 0))
+        actions.new_set_for_face.triggered.connect(self._new_set)
 
     def set_poses(self, poses: tuple[str, ...]) -> None:
         """The pose set of the curves; the face is matched to it."""
@@ -114,6 +122,14 @@ class Character(QObject):
         self._state.put("faces beside", [str(path) for path in self.company.paths])
         self._caption.stop()
         self.company.close()
+
+    def _new_set(self) -> None:
+        face = self._preview.face
+        try:
+            if face is not None:
+                self.set_wanted.emit(new_curve_set(face))
+        except UserError as error:
+            self._window.hint_label.setText(str(error))
 
     def ask_file(self) -> Path | None:
         """Let the user choose a face's file; None when nothing was chosen."""

@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, Signal
 
 from core_pipeline.curve_set import Bigram
 from core_pipeline.curves import Curve
 from core_pipeline.errors import UserError
+from core_pipeline.phone_classes import similar_bigrams
 from core_pipeline.phonemes import Pair
+from core_pipeline.speech.spelling import Span, in_words
+from core_pipeline.speech.utterance import Utterance
+from widgets.picker.bigram_model import spoken_pair
 
 from .parts import Parts
 
@@ -20,7 +24,10 @@ class OpenBigram(QObject):
 
     pair   the open bigram, None in a set without phonemes
     index  which of the sentence's bigrams it is, None when the sentence does not have it
+    opened(pair)  another one than before
     """
+
+    opened = Signal(object)
 
     def __init__(self, parts: Parts, parent: QObject) -> None:
         super().__init__(parent)
@@ -32,6 +39,7 @@ class OpenBigram(QObject):
         self.index: int | None = None
         self._visible: set[str] = set()
         self._locked: set[str] = set()
+        self._spelt: tuple[Utterance | None, list[tuple[str, Span]]] = (None, [])
         w = self._window
         w.canvas.preview_changed.connect(self._gesture)
         w.canvas.edited.connect(self._edited)
@@ -62,7 +70,9 @@ class OpenBigram(QObject):
             w.canvas.set_bigram(first, second)
             w.header.set_bigram(first, second)
             w.canvas.set_ghost(self._bigram.curves)
+            w.canvas.set_neighbours(self._neighbours())
             self._activate_drawn_pose()
+            self.opened.emit(pair)
         w.picker.set_current(pair)
         self.show_curves()
 
@@ -134,7 +144,7 @@ class OpenBigram(QObject):
             self.index = self._first_index()
         w.stage_panel.set_current(self.index, self.pair)
         w.header.set_usage(pairs.count(self.pair) if stages is not None and self.pair is not None else None)
-        w.header.set_example(self._word())
+        w.header.set_example(*self._example())
         span = self.span()
         if stages is None or span is None:
             w.canvas.set_played(None)
@@ -178,12 +188,24 @@ class OpenBigram(QObject):
         pairs = stages.schedule.pairs() if stages is not None else []
         return pairs.index(self.pair) if self.pair in pairs else None
 
-    def _word(self) -> str:
-        """The word of the sentence in which the open bigram sounds."""
-        utterance, span = self._session.utterance, self.span()
-        if utterance is None or span is None:
-            return ""
-        return next((word.text for word in utterance.words if word.start <= span[1] <= word.end), "")
+    def _example(self) -> tuple[str, Span]:
+        """Where the sentence has the open bigram: its word or words, and the span of its letters."""
+        examples = self.examples
+        return examples[self.index] if self.index is not None and self.index < len(examples) else ("", (0, 0))
+
+    @property
+    def examples(self) -> list[tuple[str, Span]]:
+        """For each bigram of the sentence its word or words, and the span of its letters."""
+        utterance = self._session.utterance
+        if utterance is not self._spelt[0]:
+            self._spelt = utterance, in_words(utterance) if utterance is not None else []
+        return self._spelt[1]
+
+    def _neighbours(self) -> dict[str, Mapping[str, Curve]]:
+        """Similar bigrams by the names that people read, the most similar first."""
+        curve_set = self._document.curve_set
+        pairs = similar_bigrams(curve_set, self.pair) if self.pair is not None else []
+        return {spoken_pair(pair): curve_set.bigrams[pair].curves for pair in pairs}
 
     # ── edit ─────────────────────────────────────────────────────────────────────────────────────
 

@@ -15,6 +15,7 @@ from PySide6.QtWidgets import QMessageBox
 
 from core_pipeline.diagnose import weak_bigrams
 from core_pipeline.errors import UserError
+from core_pipeline.phone_classes import by_class, by_frequency
 from core_pipeline.phonemes import SILENCE, Pair, pair_name
 from core_pipeline.pipeline import Stages
 from core_pipeline.poses import MEANING
@@ -23,6 +24,7 @@ from core_pipeline.speech.utterance import Utterance
 from widgets.picker.weak_list import WeakRow
 
 from ..preview import BIGRAM_SECONDS
+from .before_after import BeforeAfter
 from .character import Character
 from .face_picker import FacePicking
 from .keys import KeysOfWindow
@@ -62,6 +64,8 @@ class Wiring(QObject):
         self.mapping = Mapping(parts, self)
         self.palette = Palette(parts, self.bigram, self.sentence, self)
         self.keys = KeysOfWindow(parts, self)
+        self.before_after = BeforeAfter(parts, self)
+        self.bigram.opened.connect(self.before_after.forget)
         self._connect_document()
         self._connect_views()
         self._connect_menu()
@@ -88,7 +92,10 @@ class Wiring(QObject):
         w.canvas.hint_changed.connect(w.hint_label.setText)
         w.canvas.play_wanted.connect(preview.toggle_bigram)
         w.header.snap_toggled.connect(w.canvas.set_snap)
-        w.header.frame_all_wanted.connect(w.canvas.frame_all)
+        w.header.polygon_toggled.connect(w.canvas.set_polygon)
+        w.header.action_wanted.connect(w.canvas.act)
+        w.canvas.keys_changed.connect(w.header.set_keys)
+        w.header.set_keys(w.canvas.keys)
         w.bigram_transport.play_toggled.connect(preview.toggle_bigram)
         w.bigram_transport.length_changed.connect(preview.set_bigram_length)
         w.settings_panel.settings_changed.connect(self._settings_wanted)
@@ -127,12 +134,19 @@ class Wiring(QObject):
         a.safe_colours.toggled.connect(w.stage_panel.set_palette_safe)
         w.play_wanted.connect(self._preview.toggle_sentence)
         w.dropped.connect(self._open_dropped)
+        self.character.set_wanted.connect(self._files.new_empty)
 
     # ── document → views ─────────────────────────────────────────────────────────────────────────
 
     def _set_replaced(self) -> None:
         curve_set, w = self._document.curve_set, self._window
-        w.picker.set_phonemes(curve_set.phonemes)
+        w.picker.set_orders(
+            {
+                self.tr("As in the set"): curve_set.phonemes,
+                self.tr("By class"): by_class(curve_set.phonemes),
+                self.tr("By frequency"): by_frequency(curve_set.phonemes),
+            }
+        )
         w.pose_list.set_poses(curve_set.poses, {p: MEANING[p] for p in curve_set.poses if p in MEANING})
         w.canvas.set_poses(curve_set.poses)
         w.weights.set_poses(curve_set.poses)
@@ -211,11 +225,14 @@ class Wiring(QObject):
         w.missing_label.setToolTip(names)
 
     def _show_weak(self) -> None:
-        w, stages = self._window, self._session.stages
-        weak = weak_bigrams(stages, self._session.curve_set) if stages is not None else []
+        w, stages, curve_set = self._window, self._session.stages, self._session.curve_set
+        weak = weak_bigrams(stages, curve_set) if stages is not None and stages.poses == curve_set.poses else []
         w.weak_list.set_rows([WeakRow(x.pair, x.reason, x.worst.time, x.uses, not x.is_hint) for x in weak])
         w.picker.set_weak({x.pair: x.reason for x in weak if not x.is_hint})
         w.picker.set_used(self._session.used())
+        pairs = stages.schedule.pairs() if stages is not None else []
+        words = zip(reversed(pairs), reversed(self.bigram.examples), strict=False)  # of several, the first
+        w.picker.set_words({pair: text for pair, (text, _) in words if text})
 
     def _sentence_moment(self, seconds: float) -> None:
         w = self._window
@@ -265,6 +282,7 @@ class Wiring(QObject):
         """Bring back last time's layout."""
         state, w = self._state, self._window
         w.restore_layout(state.layout("geometry"), state.layout("docks"))
+        w.picker.set_order(state.text("order of phones"))
         w.actions_.safe_colours.setChecked(state.flag("safe colours", False))
         self.keys.restore()
         self.looks.restore()
@@ -282,6 +300,7 @@ class Wiring(QObject):
         self.mapping.close()
         state.put("geometry", w.saveGeometry())
         state.put("docks", w.saveState())
+        state.put("order of phones", w.picker.order_name)
         state.put("sentence", w.sentence_bar.sentence)
         state.put("safe colours", w.actions_.safe_colours.isChecked())
         state.put("loop", player.looping)

@@ -12,7 +12,7 @@ from core_pipeline.faces.retarget import normalised
 
 _FOV = 24.0
 #: Height of the picture in heights of what moves: brow to chin is about two thirds of a head.
-_AROUND = 0.9
+_AROUND = 0.75
 #: Vertices that move less than this part of the usual motion do not tell where the face is, nor do wild shapes.
 _MOVES, _WILD = 0.05, 10.0
 _LONGER = 1.1
@@ -45,8 +45,9 @@ def head_camera(face: Face) -> Camera:
 
 
 def head_height(face: Face) -> float:
-    """Height of the head, in the mesh's unit: of all that stands around what moves."""
-    return float(np.ptp(_near(face, _moving(face))[:, 1]))
+    """Height of the head, in the mesh's unit: of all that stands around what moves, or of everything."""
+    moved = _moving(face)
+    return float(np.ptp((_near(face, moved) if moved.any() else face.positions)[:, 1]))
 
 
 def head_outline(face: Face) -> Floats:

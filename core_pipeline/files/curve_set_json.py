@@ -20,7 +20,7 @@ little out of range) is mended and reported; everything else is refused, naming 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..curve_set import CurveSet
@@ -32,11 +32,11 @@ from .curve_set_decode import Decoder
 from .curve_set_records import MAX_ARRAYS, MAX_BYTES, MAX_OBJECTS, MAX_TOLD, MAX_VALUES, SCHEMA, VERSION
 from .curve_set_text import dumps
 from .json_text import decode_json
-from .layers import base_path, refuse_circle
+from .layers import base_path, moved_base, refuse_circle
 from .settings_json import decode_settings
 from .upgrades import upgraded, version_of
 
-__all__ = ["MAX_BYTES", "MAX_TOLD", "SCHEMA", "Reading", "dumps", "examine", "load", "parse", "read", "save"]
+__all__ = ["MAX_BYTES", "MAX_TOLD", "SCHEMA", "Reading", "dumps", "examine", "load", "moved", "parse", "read", "save"]
 
 
 @dataclass(frozen=True)
@@ -70,6 +70,12 @@ def _read(path: Path, above: tuple[Path, ...]) -> Reading:
 def save(curve_set: CurveSet, path: Path | str) -> None:
     """Write the set atomically; UserError when that fails, and then the old file is untouched."""
     write_atomically(path, dumps(curve_set))
+
+
+def moved(curve_set: CurveSet, old: Path | None, new: Path) -> CurveSet:
+    """The same set for another folder: a base that is a file is named from there. The same object where nothing is."""
+    base = moved_base(curve_set.base, old, new)
+    return curve_set if base == curve_set.base else replace(curve_set, base=base)
 
 
 def parse(data: bytes, place: str, folder: Path | None = None) -> Reading:

@@ -6,10 +6,12 @@ The Schema is published as assets/curves/curve_set.schema.json: editors and othe
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import msgspec
 
+from .atomic import write_atomically
 from .settings_json import SettingsRecord
 
 VERSION = 1
@@ -80,6 +82,13 @@ class PublishedSet(HeadRecord, kw_only=True):
     poses: Annotated[list[_Name], msgspec.Meta(min_length=1, max_length=MAX_NAMES)] | None = None
     bigrams: dict[str, PublishedBigram] = {}
     aside: dict[str, PublishedBigram] = {}
+
+
+def write_schema(folder: Path) -> Path:
+    """Publish the JSON Schema in a folder; the path written."""
+    path = folder / "curve_set.schema.json"
+    write_atomically(path, json_schema())
+    return path
 
 
 def json_schema() -> str:

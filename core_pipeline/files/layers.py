@@ -68,7 +68,7 @@ def refuse_circle(path: Path, above: tuple[Path, ...], place: str) -> None:
 
 def moved_base(base: str | None, old: Path | None, new: Path) -> str | None:
     """The same base, said from another folder: a relative path is rewritten when a set moves from `old` to `new`."""
-    if base is None or _is_name(base) or Path(base).is_absolute() or old is None:
+    if base is None or old is None or _is_name(base) or Path(base).is_absolute() or old.resolve() == new.resolve():
         return base
     try:
         return Path(os.path.relpath((old / base).resolve(), new.resolve())).as_posix()

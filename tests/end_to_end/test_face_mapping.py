@@ -198,3 +198,18 @@ def test_a_held_pose_gives_way_to_playing(editor: Editor, qtbot: QtBot, rig: Pat
     qtbot.waitUntil(lambda: not editor.window.mapping_panel.hold.isChecked(), timeout=20_000)
     qtbot.waitUntil(lambda: 0 < weights[-1][poses.index("FV")] < 1, timeout=20_000)
     editor.preview.toggle_bigram()
+
+
+def test_a_rigs_own_names_become_a_pose_set(editor: Editor, qtbot: QtBot, tmp_path: Path) -> None:
+    """From the menu: an empty set, settings that fit, and a face that makes its poses."""
+    bird = rigs.as_glb(rigs.head(("beak open", "beak shut", "browUp"), rings=16), tmp_path / "bird.glb")
+    open_rig(editor, qtbot, bird)
+    with qtbot.waitSignal(editor.faces.opened, timeout=20_000):
+        editor.window.actions_.new_set_for_face.trigger()
+    curve_set = editor.document.curve_set
+    assert curve_set.poses == ("beak open", "beak shut")
+    assert curve_set.effective_settings.priorities == ("beak open", "beak shut")
+    assert not curve_set.bigrams
+    face = editor.preview.face
+    assert face is not None
+    assert face.mix("beak open") == {"beak open": 1.0}

@@ -58,6 +58,11 @@ class CurvePlot(pg.PlotWidget):
         self._control.set_spline(kind)
         self._item.update()
 
+    def set_polygon(self, on: bool) -> None:
+        """Whether the straight lines between keys are drawn."""
+        self._item.polygon = on
+        self._item.update()
+
     def set_played(self, lines: Mapping[str, tuple[Array, Array]] | None) -> None:
         """What the sentence makes of the bigram: pose → (normalised times, weights); the active one is dotted."""
         self._item.played = dict(lines or {})

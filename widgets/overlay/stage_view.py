@@ -15,8 +15,8 @@ from PySide6.QtWidgets import QWidget
 from core_pipeline.phonemes import Pair
 from core_pipeline.pipeline import Stages
 
-from . import stage_backdrop as backdrop
 from .. import theme
+from . import stage_backdrop as backdrop
 from .stage_footer import ROW, Footer
 from .stage_layers import LAYERS, RowPlace, draw_ghost, draw_origin
 from .stage_lines import Line, PoseLines, pose_lines
