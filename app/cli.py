@@ -144,6 +144,8 @@ COMMANDS: Mapping[str, Command] = {
     "face": _in("rigs", "tell_face"),
     "contact-sheet": _in("command_line.contact_sheet", "contact_sheet"),
     "screenshot": _screenshot,
+    "fit": _in("command_line.fit", "fit"),
+    "study": _in("command_line.study", "study"),
     "build-faces": _in("command_line.build", "build_faces"),
     "build-curves": _in("command_line.build", "build_curves"),
     "build-frequencies": _in("command_line.stats", "build_frequencies"),

@@ -78,7 +78,7 @@ class Weak(QObject):
         panel.cancel_wanted.connect(self._cancel)
         panel.list.picked_in.connect(self._go)
         self._document.bigram_changed.connect(lambda _: self._later.start())
-        self._document.bigrams_changed.connect(self._later.start)
+        self._document.bigrams_changed.connect(lambda _: self._later.start())
         self._document.replaced.connect(self._later.start)
         self._document.settings_changed.connect(self._later.start)
 
@@ -108,6 +108,8 @@ class Weak(QObject):
         pairs = stages.schedule.pairs() if stages is not None else []
         words = zip(reversed(pairs), reversed(self._bigram.examples), strict=False)  # of several, the first
         w.picker.set_words({pair: text for pair, (text, _) in words if text})
+        if stages is not None and stages.poses != session.curve_set.poses:
+            return  # another set has just been opened: its stages are on their way
         if not session.in_gesture and not session.shows_other:  # when it ends there is a new result
             self._diagnoser.request((session.curve_set, stages))
 

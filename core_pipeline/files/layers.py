@@ -67,13 +67,21 @@ def refuse_circle(path: Path, above: tuple[Path, ...], place: str) -> None:
 
 
 def moved_base(base: str | None, old: Path | None, new: Path) -> str | None:
-    """The same base, said from another folder: a relative path is rewritten when a set moves from `old` to `new`."""
-    if base is None or old is None or _is_name(base) or Path(base).is_absolute() or old.resolve() == new.resolve():
+    """The same base, said from another folder: a path is rewritten when a set moves from `old` to `new`.
+
+    old  None for a set that had no file yet; its base is then said relative to its first
+    """
+    if (
+        base is None
+        or _is_name(base)
+        or (old is not None and (Path(base).is_absolute() or old.resolve() == new.resolve()))
+    ):
         return base
+    target = ((old or Path()) / base).resolve()
     try:
-        return Path(os.path.relpath((old / base).resolve(), new.resolve())).as_posix()
+        return Path(os.path.relpath(target, new.resolve())).as_posix()
     except ValueError:  # on another drive
-        return str((old / base).resolve())
+        return str(target)
 
 
 def _is_name(base: str) -> bool:
