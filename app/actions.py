@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QMainWindow
 from widgets import theme
 from widgets.canvas.keymaps import KEYMAPS, NEUTRAL
 
+from .layouts import PRESETS
 from .menus import Registry
 
 
@@ -117,15 +118,32 @@ class Actions:
         menu.line()
         self.safe_colours = menu.add(
             "view.safe-colours",
-            tr("Co&lours Safe for Every Eye"),
+            tr("Colours &Safe for Every Eye"),
             (),
             tr("Stage colours that remain apart without full colour vision"),
             checked=False,
         )
-        self.default_layout = menu.add(
-            "view.reset-layout", tr("&Reset Layout"), (), tr("Put all docks back in their places")
+        menu.line()
+        layouts = self.layouts_menu = menu.submenu(tr("&Layout"))
+        self.layouts = [
+            layouts.add(
+                f"layout.{name}", tr(preset.title), f"Ctrl+Alt+{i}", tr("Put the docks in their places for this")
+            )
+            for i, (name, preset) in enumerate(PRESETS.items(), 1)
+        ]
+        layouts.line()
+        self.save_layout = layouts.add(
+            "layout.save", tr("&Save This Layout…"), (), tr("Keep the docks as they are now, under a name")
         )
+        self.remove_layout = layouts.add("layout.remove", tr("Re&move a Layout…"), (), tr("Forget a saved layout"))
         self.docks_menu = menu.submenu(tr("&Docks"))
+        menu.line()
+        self.next_part = menu.add(
+            "view.next-part", tr("&Next Part of the Window"), "F6", tr("Toolbar, canvas, each dock")
+        )
+        self.previous_part = menu.add(
+            "view.previous-part", tr("&Previous Part of the Window"), "Shift+F6", tr("Each dock, canvas, toolbar")
+        )
 
     def _bigram(self) -> None:
         tr, menu = self._tr, self.registry.menu(self._tr("&Bigram"))
@@ -145,10 +163,43 @@ class Actions:
             "bigram.previous", tr("P&revious in the Sentence"), "Alt+Left", tr("The sentence's previous bigram")
         )
 
+        menu.line()
+        self.new_tab = menu.add(
+            "bigram.new-tab",
+            tr("In a New &Tab"),
+            "Ctrl+T",
+            tr("Keep this bigram in its tab and open its swapped pair in another"),
+        )
+        self.close_tab = menu.add("bigram.close-tab", tr("&Close the Tab"), "Ctrl+W", tr("Close this bigram's tab"))
+        self.next_tab = menu.add("bigram.next-tab", tr("Ne&xt Tab"), "Ctrl+Tab", tr("The bigram of the next tab"))
+        self.previous_tab = menu.add(
+            "bigram.previous-tab", tr("Pre&vious Tab"), "Ctrl+Shift+Tab", tr("The bigram of the previous tab")
+        )
+        self.beside = menu.add(
+            "bigram.beside",
+            tr("Swapped Pair &Beside It"),
+            "Ctrl+B",
+            tr("A second canvas: b-a beside a-b, or any bigram that is pinned there"),
+            checked=False,
+        )
+
     def _sentence(self) -> None:
         tr, menu = self._tr, self.registry.menu(self._tr("&Sentence"))
         self.sentence_menu = menu
         self.sentence = menu.add("sentence.type", tr("&Type a Sentence"), "Ctrl+L", tr("Go to the sentence"))
+        menu.line()
+        self.pin_sentence = menu.add(
+            "sentence.pin", tr("&Pin This Sentence"), "Ctrl+Shift+P", tr("Keep it in the list of test sentences")
+        )
+        self.next_sentence = menu.add(
+            "sentence.next", tr("&Next Pinned Sentence"), "Alt+Down", tr("Say the next sentence of the list")
+        )
+        self.previous_sentence = menu.add(
+            "sentence.previous", tr("P&revious Pinned Sentence"), "Alt+Up", tr("Say the previous sentence of the list")
+        )
+        self.import_sentences = menu.add(
+            "sentence.import", tr("&Import Sentences…"), (), tr("Pin the lines of a text file")
+        )
 
     def _playback(self) -> None:
         tr, menu = self._tr, self.registry.menu(self._tr("&Playback"))

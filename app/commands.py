@@ -6,7 +6,7 @@ document, which extends the newest command.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 from PySide6.QtGui import QUndoCommand
 
@@ -42,8 +42,32 @@ class EditBigram(QUndoCommand):
         self._apply(self.pair, self.before)
 
 
+class EditBigrams(QUndoCommand):
+    """Many bigrams before and after; None means there was none."""
+
+    def __init__(
+        self,
+        apply: Callable[[Mapping[Pair, Bigram | None]], None],
+        before: Mapping[Pair, Bigram | None],
+        after: Mapping[Pair, Bigram | None],
+        label: str,
+    ) -> None:
+        super().__init__(label)
+        self._apply = apply
+        self.before = before
+        self.after = after
+
+    def redo(self) -> None:
+        """Put the new bigrams in place."""
+        self._apply(self.after)
+
+    def undo(self) -> None:
+        """Put the old bigrams back."""
+        self._apply(self.before)
+
+
 class ChangeSet(QUndoCommand):
-    """The whole set before and after: a restored backup, a merge, another phoneme set, many bigrams at once."""
+    """The whole set before and after: a restored backup, a merge, another phoneme set."""
 
     def __init__(self, apply: Callable[[CurveSet], None], before: CurveSet, after: CurveSet, label: str) -> None:
         super().__init__(label)

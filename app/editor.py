@@ -61,6 +61,7 @@ class Editor(QObject):
                 state=state,
                 speech=self.speech,
                 search=self._search,
+                speaker=self.speaker,
             ),
             self,
         )

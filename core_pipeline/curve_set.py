@@ -93,13 +93,17 @@ class CurveSet:
 
     def with_bigram(self, pair: Pair, bigram: Bigram | None) -> CurveSet:
         """With another bigram at `pair` in this layer; None removes this layer's, so that the base's is back."""
-        if bigram is None and self.below is not None:
-            bigram = self.below.bigrams.get(pair)
+        return self.with_bigrams({pair: bigram})
+
+    def with_bigrams(self, changes: Mapping[Pair, Bigram | None]) -> CurveSet:
+        """With other bigrams in this layer; None removes this layer's, so that the base's is back."""
         bigrams = dict(self.bigrams)
-        if bigram is None:
-            bigrams.pop(pair, None)
-        else:
-            bigrams[pair] = bigram
+        for pair, bigram in changes.items():
+            plays = self.below.bigrams.get(pair) if bigram is None and self.below is not None else bigram
+            if plays is None:
+                bigrams.pop(pair, None)
+            else:
+                bigrams[pair] = plays
         return replace(self, bigrams=bigrams)
 
     def with_settings(self, settings: Settings) -> CurveSet:

@@ -9,6 +9,7 @@ from PySide6.QtGui import QActionGroup
 from PySide6.QtWidgets import QFileDialog
 
 from core_pipeline.errors import UserError
+from core_pipeline.faces.looks import ANGLES
 from core_pipeline.faces.open_face import Opened
 from core_pipeline.faces.pose_set import new_curve_set
 
@@ -47,13 +48,14 @@ class Character(QObject):
         view, preview = self._window.face_view, self._preview
         self._faces.opened.connect(self._opened)
         self._faces.failed.connect(self._failed)
+        self._faces.reading.connect(self._window.hint_label.setText)
         preview.frame_ready.connect(view.set_frame)
         preview.failed.connect(lambda reason: view.set_message(reason, retry=True))
         view.orbited.connect(preview.orbit)
         view.panned.connect(preview.pan)
         view.zoomed.connect(preview.zoom)
-        view.reset_wanted.connect(preview.reset_view)
-        view.cutaway_wanted.connect(preview.cut_away)
+        view.reset_wanted.connect(lambda: preview.set_angle(ANGLES["front"]))
+        view.cutaway_wanted.connect(lambda on: preview.cut_away(0, on))
         view.cutaway_wanted.connect(view.set_cutaway)
         self._window.actions_.lively.toggled.connect(preview.set_lively)
         view.retry_wanted.connect(preview.worker.retry)

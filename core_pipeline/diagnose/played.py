@@ -24,7 +24,7 @@ SLOWED = 0.20
 CLIPPED = 0.6
 #: A pose that turns more often than this inside one bigram trembles; smaller moves than MOVE do not count.
 TURNS = 2
-MOVE = 0.02
+MOVE = 0.05
 #: A pose that comes and goes within less than this (seconds) pops.
 HOLD = 0.1
 #: Within a phrase every pose below REST for longer than this (seconds) is a hole.

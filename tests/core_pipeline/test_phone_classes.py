@@ -38,7 +38,7 @@ def test_distance_is_a_distance():
 
 def test_similar_bigrams_share_a_phone_first_and_are_never_empty_or_the_same():
     pairs = [("f", "aa"), ("f", "ih"), ("f", "bmp"), ("bmp", "d"), ("f", "ah"), ("f", "eh")]
-    curve_set = CurveSet(bigrams={pair: DRAWN for pair in reversed(pairs)} | {("f", "ao"): Bigram()})
+    curve_set = CurveSet(bigrams=dict.fromkeys(reversed(pairs), DRAWN) | {("f", "ao"): Bigram()})
     found = similar_bigrams(curve_set, ("f", "ah"))
     assert found[0] == ("f", "aa")
     assert found[-1] == ("bmp", "d")

@@ -43,6 +43,8 @@ class CurveCanvas(CurveCompare):
     play_wanted = Signal()
     #: These poses alone are to be shown, none: all again. frozenset of poses.
     solo_wanted = Signal(object)
+    #: Another keymap: dict action → its first key, as this system writes it.
+    keys_changed = Signal(object)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -120,6 +122,7 @@ class CurveCanvas(CurveCompare):
     def set_keymap(self, name: str = NEUTRAL) -> None:
         """Which keys do what: one of keymaps.KEYMAPS (KeyError otherwise)."""
         self._keymap = KEYMAPS[name]
+        self.keys_changed.emit(self.keys)
         self._tell()
 
     # What is shown, for the owner and for tests
@@ -138,6 +141,11 @@ class CurveCanvas(CurveCompare):
     def selection(self) -> frozenset[tuple[str, int]]:
         """Selected keys as (pose, index)."""
         return self._control.selection
+
+    @property
+    def keys(self) -> dict[str, str]:
+        """Action → its first key in the present keymap, as this system writes it."""
+        return {action: key_name(names[0]) for action, names in self._keymap.items()}
 
     @property
     def editable(self) -> bool:
@@ -279,8 +287,7 @@ class CurveCanvas(CurveCompare):
             "frame": bool(control.selection),
         }
         acts = {**self._acts, "add": lambda: self._do(lambda: control.add(x, y, anywhere=True))}
-        keys = {action: key_name(names[0]) for action, names in self._keymap.items()}
-        return CurveMenu(self, control.active, acts, keys, {action for action, able in can.items() if not able})
+        return CurveMenu(self, control.active, acts, self.keys, {action for action, able in can.items() if not able})
 
     # The keyboard
 

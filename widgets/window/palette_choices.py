@@ -11,9 +11,10 @@ from .fuzzy import fit
 #: At most so many are offered: nobody scrolls further.
 MOST = 60
 
-#: What an exact name is worth, the beginning of one, and having been used lately (the newest most).
-_EXACT, _BEGINNING, _RECENT = 100.0, 14.0, 6.0
-#: A choice found by its group and not by its own title alone.
+#: What an exact name is worth, the beginning of one, a piece of a sentence, and having been used lately: the
+#: newest most.
+_EXACT, _BEGINNING, _PIECES, _RECENT = 100.0, 14.0, 4.0, 6.0
+#: A choice found by its group first, "view layout", is worth less than one found by its title alone.
 _BY_GROUP = -6.0
 
 _BETWEEN = re.compile(r"[\s\-–—_,>→]+")
@@ -82,11 +83,11 @@ def _by_title(query: str, choice: Choice) -> tuple[float, tuple[int, ...]] | Non
     if (own := fit(query, choice.title)) is not None:
         whole = query.strip().casefold() == choice.title.casefold()
         return own.score + (_EXACT if whole else 0.0), own.places
-    both = fit(query, f"{choice.group} {choice.title}")
-    if both is None:
+    first, _, rest = query.strip().partition(" ")
+    if not choice.group.casefold().startswith(first.casefold()):
         return None
-    offset = len(choice.group) + 1
-    return both.score + _BY_GROUP, tuple(place - offset for place in both.places if place >= offset)
+    inner = fit(rest, choice.title)
+    return None if inner is None else (inner.score + _BY_GROUP, inner.places)
 
 
 def _by_pieces(query: str, choice: Choice) -> tuple[float, tuple[int, ...]] | None:
@@ -96,7 +97,7 @@ def _by_pieces(query: str, choice: Choice) -> tuple[float, tuple[int, ...]] | No
         if at < 0:
             return None
         places.update(range(at, at + len(piece)))
-    return 2.0 * len(places), tuple(sorted(places))
+    return _PIECES + len(places), tuple(sorted(places))
 
 
 def _by_name(query: str, choice: Choice) -> tuple[float, tuple[int, ...]] | None:

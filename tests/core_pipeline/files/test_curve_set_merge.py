@@ -7,10 +7,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app import resources
-from core_pipeline.compare import differences, distance, pair_differs
 from core_pipeline.curve_set import Bigram, CurveSet
 from core_pipeline.curves import Curve
 from core_pipeline.files import curve_set_json
+from core_pipeline.files.curve_set_diff import differences, distance, pair_differs
 from core_pipeline.files.curve_set_merge import decided, merge, open_conflicts
 from core_pipeline.phone_sets import added, removed
 from core_pipeline.settings import Settings
