@@ -94,6 +94,10 @@ class Actions:
         self.redo.setIcon(theme.icon("redo"))
         self.redo.setStatusTip(tr("Make the change again that was taken back"))
         menu.line()
+        self.phone_set = menu.add(
+            "edit.phones", tr("&Phone Set…"), (), tr("Add, split, rename and remove phonemes; see first what changes")
+        )
+        menu.line()
         keys = menu.submenu(tr("&Keys of the Canvas"))
         self.keymaps: QActionGroup = keys.choice()
         titles = {NEUTRAL: tr("&Neutral"), "Maya": tr("Like &Maya"), "Blender": tr("Like &Blender")}
@@ -153,6 +157,9 @@ class Actions:
             "bigram.play", tr("&Play the Bigram Alone"), "Shift+F5", tr("Play or stop the open bigram")
         )
         menu.line()
+        self.revert = menu.add(
+            "bigram.revert", tr("Re&vert to Base"), (), tr("The open bigram as the set below has it")
+        )
         self.swapped = menu.add(
             "bigram.swapped", tr("Open the &Swapped Pair"), "Ctrl+Shift+B", tr("From f-ah to ah-f and back")
         )
