@@ -1,8 +1,9 @@
 """The only place, with its neighbours, where wishes become commands and values reach the views.
 
-open_bigram.py has the canvas and what belongs to it, sentence.py the sentence and its transport,
-character.py the face, mapping.py what makes its poses, palette.py the command palette, keys.py keymaps and
-shortcuts; here is the rest: the document's news, the pipeline's results, settings, search, menus.
+open_bigram.py has the canvas and what belongs to it, sentence.py the sentence and its transport, character.py the
+face, company.py those beside it, face_picker.py their choice, looks.py light and camera, mapping.py what makes a
+face's poses, palette.py the command palette, keys.py keymaps and shortcuts; here is the rest: the document's news,
+the pipeline's results, settings, search, menus.
 """
 
 from __future__ import annotations
@@ -27,9 +28,11 @@ from .beside import Beside
 from .carrier import Carrier
 from .character import Character
 from .compare import Compare
+from .face_picker import FacePicking
 from .keys import KeysOfWindow
 from .layers import Layers
 from .layouts import Layouts
+from .looks import Looks
 from .mapping import Mapping
 from .open_bigram import OpenBigram
 from .palette import Palette
@@ -64,6 +67,8 @@ class Wiring(QObject):
         self.sentence = Sentence(parts, self)
         self.sentences = Sentences(parts, self.sentence, self)
         self.character = Character(parts, self)
+        self.picking = FacePicking(parts, self.character, self)
+        self.looks = Looks(parts, self)
         self.mapping = Mapping(parts, self)
         self.weak = Weak(parts, self.bigram, self.sentence, self)
         self.suggesting = Suggesting(parts, self.bigram, self.weak, self)
@@ -145,7 +150,6 @@ class Wiring(QObject):
             (a.play, self._preview.toggle_sentence),
             (a.play_bigram, self._preview.toggle_bigram),
             (a.to_start, self.sentence.to_start),
-            (a.reset_view, w.face_view.reset_wanted.emit),
             (a.next_part, w.focus_ring.go),
             (a.previous_part, lambda: w.focus_ring.go(-1)),
             (a.about, self._about),
@@ -302,6 +306,7 @@ class Wiring(QObject):
         w.picker.set_order(state.text("order of phones"))
         w.actions_.safe_colours.setChecked(state.flag("safe colours", False))
         self.keys.restore()
+        self.looks.restore()
         self.character.restore()
         self.sentence.set_loop(state.flag("loop", True))
         w.voice_bar.set_speed(state.number("speed", 1.0))
@@ -312,6 +317,8 @@ class Wiring(QObject):
         """Keep this time's layout."""
         state, w, player = self._state, self._window, self._preview.player
         self.character.remember()
+        self.looks.remember()
+        self.picking.close()
         self.mapping.close()
         self.sentences.remember()
         state.put("geometry", w.saveGeometry())
