@@ -99,6 +99,7 @@ class Actions:
         self.phone_set = menu.add(
             "edit.phones", tr("&Phone Set…"), (), tr("Add, split, rename and remove phonemes; see first what changes")
         )
+        self.author = menu.add("edit.author", tr("&Author…"), (), tr("The name that your bigrams bear in the file"))
         menu.line()
         keys = menu.submenu(tr("&Keys of the Canvas"))
         self.keymaps: QActionGroup = keys.choice()
@@ -202,6 +203,12 @@ class Actions:
         menu.line()
         self.revert = menu.add(
             "bigram.revert", tr("Re&vert to Base"), (), tr("The open bigram as the set below has it")
+        )
+        self.theirs = menu.add(
+            "bigram.theirs",
+            tr("S&wap with the Other Side's Curves"),
+            (),
+            tr("Where a merge left this bigram undecided; editing or approving decides"),
         )
         self.swapped = menu.add(
             "bigram.swapped", tr("Open the &Swapped Pair"), "Ctrl+Shift+B", tr("From f-ah to ah-f and back")

@@ -139,6 +139,7 @@ class Wiring(QObject):
             (a.new_on_base, self.exchange.ask_new_on_base),
             (a.import_script, self.exchange.ask_import),
             (a.restore, self._files.ask_restore),
+            (a.author, self._files.ask_author),
             (a.export, self.exchange.ask_export),
             (a.export_weights, self.exchange.ask_export_weights),
             (a.quit, w.close),

@@ -1,5 +1,6 @@
 """A character's set over English, and b split from m: shown, undone, and nothing lost."""
 
+from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import Qt, QTimer
@@ -9,6 +10,7 @@ from pytestqt.qtbot import QtBot
 from app.editor import Editor
 from core_pipeline.curves import Curve
 from core_pipeline.files import curve_set_json
+from core_pipeline.files.curve_set_merge import merge, open_conflicts
 from widgets.window.phone_set_dialog import PhoneSetDialog
 
 F_AH = ("f", "ah")
@@ -76,3 +78,23 @@ def test_b_is_split_from_m_in_the_dialog(editor: Editor, qtbot: QtBot) -> None:
     assert document.curve_set is before
     assert "b" not in editor.window.picker.grid.pairs.phonemes
     assert [backup.kind for backup in editor.files.keeper.backups().all()] == ["before change the phone set"]
+
+
+def test_after_a_merge_the_other_side_is_seen_and_one_is_approved(editor: Editor) -> None:
+    """In the open bigram: ours, then theirs by the menu, and approving decides."""
+    document, actions = editor.document, editor.window.actions_
+    base = document.curve_set
+    ours, theirs = (
+        base.with_bigram(F_AH, base.bigrams[F_AH].with_curve("open", Curve.of([(0, height)]))) for height in (0.2, 0.8)
+    )
+    document.change_set(merge(base, ours, theirs).curve_set, "Merge")
+    editor.wiring.bigram.open(F_AH)
+    assert "undecided since a merge" in editor.window.header.text
+    actions.theirs.trigger()
+    assert document.curve_set.bigrams[F_AH].curves["open"].keys() == [(0, 0.8)]
+    actions.theirs.trigger()
+    actions.theirs.trigger()
+    document.put_bigram(F_AH, replace(document.curve_set.bigrams[F_AH], status="approved"), "Approve")
+    assert open_conflicts(document.curve_set) == []
+    assert not actions.theirs.isEnabled()
+    assert document.curve_set.bigrams[F_AH].curves["open"].keys() == [(0, 0.8)]
