@@ -90,6 +90,8 @@ class Document(QObject):
         self._check_editable()
         if not self.curve_set.has_pair(pair):
             raise UserError(f"{pair[0]}-{pair[1]} is not a bigram of this set: choose another.")
+        if bigram.status == "approved":
+            bigram = decided(bigram)
         self.undo_stack.push(EditBigram(self._put_bigram, pair, self.curve_set.bigrams.get(pair), bigram, label))
 
     def put_bigrams(self, bigrams: Mapping[Pair, Bigram], label: str) -> None:

@@ -82,6 +82,18 @@ def make_parser() -> Parser:
     render.add_argument("--method", type=Path, metavar="FILE", help="a learned model, .npz, in place of the curves")
     render.add_argument("--still", action="store_true", help="keep eyes and brows still: no blinking")
 
+    strip = command(
+        "film-strip",
+        "draw a sentence as a row of pictures, one for each phone",
+        'lipstitch film-strip "Five big moths" --face ada --out strip.png',
+    )
+    _speech_options(strip, usual="the face's own, or our English set")
+    strip.add_argument("--out", type=Path, required=True, metavar="FILE", help="the picture, .png")
+    strip.add_argument("--face", metavar="FACE", help=_FACE)
+    strip.add_argument(
+        "--size", type=_size, default=(128, 128), metavar="WxH", help="pixels of each picture (default 128x128)"
+    )
+
     face = command("face", "say what a face is made of and which poses it can make", "lipstitch face head.glb")
     face.add_argument("face", metavar="FACE", help=_FACE)
     face.add_argument("--curves", type=Path, metavar="FILE", help="the curve set whose poses it shall make")

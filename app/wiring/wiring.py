@@ -30,12 +30,14 @@ from .character import Character
 from .compare import Compare
 from .face_picker import FacePicking
 from .keys import KeysOfWindow
+from .layers import Layers
 from .layouts import Layouts
 from .looks import Looks
 from .mapping import Mapping
 from .open_bigram import OpenBigram
 from .palette import Palette
 from .parts import Parts
+from .phone_sets import PhoneSets
 from .queue import Queue
 from .sentence import RATE, Sentence
 from .sentences import Sentences
@@ -75,6 +77,8 @@ class Wiring(QObject):
         self.time_spent = TimeSpent(parts, self.bigram, self)
         self.compare = Compare(parts, self.bigram, self)
         self.statistics = Statistics(parts, self.queue, self)
+        self.layers = Layers(parts, self.bigram, self)
+        self.phone_sets = PhoneSets(parts, self)
         self.palette = Palette(parts, self.bigram, self.sentence, self)
         self.keys = KeysOfWindow(parts, self)
         self.layouts = Layouts(parts, self.keys.shortcuts, self)
@@ -135,6 +139,7 @@ class Wiring(QObject):
             (a.new_on_base, self.exchange.ask_new_on_base),
             (a.import_script, self.exchange.ask_import),
             (a.restore, self._files.ask_restore),
+            (a.author, self._files.ask_author),
             (a.export, self.exchange.ask_export),
             (a.export_weights, self.exchange.ask_export_weights),
             (a.quit, w.close),
@@ -221,11 +226,13 @@ class Wiring(QObject):
         w.setWindowModified(document.is_dirty)
         if document.read_only_reason:
             text = self.tr("read-only")
+            w.hint_label.setText(document.read_only_reason)
         elif document.is_dirty:
             text = self.tr("unsaved changes")
         else:
             text = self.tr("saved") if document.path is not None else self.tr("no changes")
         w.saved_label.setText(text)
+        w.saved_label.setToolTip(document.read_only_reason)
 
     def _show_saved(self) -> None:
         if self._document.is_dirty:
