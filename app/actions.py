@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from PySide6.QtGui import QActionGroup, QUndoStack
 from PySide6.QtWidgets import QMainWindow
 
 from widgets import theme
 from widgets.canvas.keymaps import KEYMAPS, NEUTRAL
 
-from .menus import Registry
+from .layouts import PRESETS
+from .menus import Menu, Registry
 
 
 class Actions:
@@ -108,6 +111,14 @@ class Actions:
         tr, menu = self._tr, self.registry.menu(self._tr("&View"))
         self.view_menu = menu
         self.characters_menu = menu.submenu(tr("&Character"))
+        self.pick_face = self.characters_menu.add(
+            "character.pick", tr("&Choose…"), "Ctrl+Shift+F", tr("Another face, from their portraits")
+        )
+        self.add_face = self.characters_menu.add(
+            "character.add", tr("&Add Beside…"), "Ctrl+Alt+A", tr("Another face beside, to say the same sentence")
+        )
+        self.characters_menu.line()
+        self._looks(menu)
         self.reset_view = menu.add(
             "view.front", tr("See the Face from the &Front"), "Ctrl+0", tr("Reset the face's camera")
         )
@@ -117,15 +128,65 @@ class Actions:
         menu.line()
         self.safe_colours = menu.add(
             "view.safe-colours",
-            tr("Co&lours Safe for Every Eye"),
+            tr("Colours &Safe for Every Eye"),
             (),
             tr("Stage colours that remain apart without full colour vision"),
             checked=False,
         )
-        self.default_layout = menu.add(
-            "view.reset-layout", tr("&Reset Layout"), (), tr("Put all docks back in their places")
+        menu.line()
+        layouts = self.layouts_menu = menu.submenu(tr("&Layout"))
+        self.layouts = [
+            layouts.add(
+                f"layout.{name}", tr(preset.title), f"Ctrl+Alt+{i}", tr("Put the docks in their places for this")
+            )
+            for i, (name, preset) in enumerate(PRESETS.items(), 1)
+        ]
+        layouts.line()
+        self.save_layout = layouts.add(
+            "layout.save", tr("&Save This Layout…"), (), tr("Keep the docks as they are now, under a name")
         )
+        self.remove_layout = layouts.add("layout.remove", tr("Re&move a Layout…"), (), tr("Forget a saved layout"))
         self.docks_menu = menu.submenu(tr("&Docks"))
+        menu.line()
+        self.next_part = menu.add(
+            "view.next-part", tr("&Next Part of the Window"), "F6", tr("Toolbar, canvas, each dock")
+        )
+        self.previous_part = menu.add(
+            "view.previous-part", tr("&Previous Part of the Window"), "Shift+F6", tr("Each dock, canvas, toolbar")
+        )
+
+    def _looks(self, menu: Menu) -> None:
+        """How the faces are seen."""
+        tr = self._tr
+        backgrounds = {
+            "studio": tr("&Studio"), "daylight": tr("&Daylight"), "night": tr("&Night"), "grey": tr("Flat &Grey"),
+            "checker": tr("&Checkers"), "green": tr("Gr&een for Keying"),
+        }  # fmt: skip
+        lights = {"left": tr("From the &Left"), "right": tr("From the &Right"), "top": tr("From A&bove")}
+        angles = {
+            "front": tr("&Front"), "left": tr("Three-quarter &Left"), "right": tr("Three-quarter &Right"),
+            "profile": tr("&Profile"), "mouth": tr("&Mouth"),
+        }  # fmt: skip
+        ground = menu.submenu(tr("Back&ground"))
+        self.backgrounds = self._one_of(ground, "background", backgrounds)
+        self.next_background = ground.add("background.next", tr("Ne&xt Background"), "Ctrl+Alt+B")
+        light = menu.submenu(tr("L&ight"))
+        self.lights = self._one_of(light, "light", lights)
+        self.next_light = light.add("light.next", tr("Ne&xt Light"), "Ctrl+Alt+L")
+        self.angles = self._one_of(menu.submenu(tr("Ca&mera")), "camera", angles, numbered=True)
+        self.angles.setExclusionPolicy(QActionGroup.ExclusionPolicy.ExclusiveOptional)  # none, once turned by hand
+        self.turntable = menu.add(
+            "view.turntable", tr("&Turntable"), "Ctrl+T", tr("Let the faces turn by themselves"), checked=False
+        )
+
+    def _one_of(self, menu: Menu, kind: str, titles: Mapping[str, str], *, numbered: bool = False) -> QActionGroup:
+        """A choice of exactly one, the first at the start; `numbered`: Ctrl+1 and so on choose."""
+        group = menu.choice()
+        for number, (name, title) in enumerate(titles.items(), 1):
+            action = menu.add(f"{kind}.{name}", title, f"Ctrl+{number}" if numbered else (), checked=number == 1)
+            action.setData(name)
+            group.addAction(action)
+        return group
 
     def _bigram(self) -> None:
         tr, menu = self._tr, self.registry.menu(self._tr("&Bigram"))
@@ -145,10 +206,43 @@ class Actions:
             "bigram.previous", tr("P&revious in the Sentence"), "Alt+Left", tr("The sentence's previous bigram")
         )
 
+        menu.line()
+        self.new_tab = menu.add(
+            "bigram.new-tab",
+            tr("In a New &Tab"),
+            "Ctrl+T",
+            tr("Keep this bigram in its tab and open its swapped pair in another"),
+        )
+        self.close_tab = menu.add("bigram.close-tab", tr("&Close the Tab"), "Ctrl+W", tr("Close this bigram's tab"))
+        self.next_tab = menu.add("bigram.next-tab", tr("Ne&xt Tab"), "Ctrl+Tab", tr("The bigram of the next tab"))
+        self.previous_tab = menu.add(
+            "bigram.previous-tab", tr("Pre&vious Tab"), "Ctrl+Shift+Tab", tr("The bigram of the previous tab")
+        )
+        self.beside = menu.add(
+            "bigram.beside",
+            tr("Swapped Pair &Beside It"),
+            "Ctrl+B",
+            tr("A second canvas: b-a beside a-b, or any bigram that is pinned there"),
+            checked=False,
+        )
+
     def _sentence(self) -> None:
         tr, menu = self._tr, self.registry.menu(self._tr("&Sentence"))
         self.sentence_menu = menu
         self.sentence = menu.add("sentence.type", tr("&Type a Sentence"), "Ctrl+L", tr("Go to the sentence"))
+        menu.line()
+        self.pin_sentence = menu.add(
+            "sentence.pin", tr("&Pin This Sentence"), "Ctrl+Shift+P", tr("Keep it in the list of test sentences")
+        )
+        self.next_sentence = menu.add(
+            "sentence.next", tr("&Next Pinned Sentence"), "Alt+Down", tr("Say the next sentence of the list")
+        )
+        self.previous_sentence = menu.add(
+            "sentence.previous", tr("P&revious Pinned Sentence"), "Alt+Up", tr("Say the previous sentence of the list")
+        )
+        self.import_sentences = menu.add(
+            "sentence.import", tr("&Import Sentences…"), (), tr("Pin the lines of a text file")
+        )
 
     def _playback(self) -> None:
         tr, menu = self._tr, self.registry.menu(self._tr("&Playback"))

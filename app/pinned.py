@@ -3,13 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
+
+from core_pipeline.errors import UserError
+from core_pipeline.files.atomic import reason
 
 from .settings import ViewState
 
 #: A list longer than this is no list of test sentences; a line longer than this is no sentence.
 MOST, LONGEST = 500, 400
+
+#: Bytes of a file of lines.
+BIGGEST = 1_000_000
+
+_KEY = "pinned sentences"
 
 
 class Pinned(QObject):
@@ -21,10 +30,12 @@ class Pinned(QObject):
 
     changed = Signal()
 
-    def __init__(self, state: ViewState, parent: QObject | None = None) -> None:
+    def __init__(self, state: ViewState, first: Iterable[str] = (), parent: QObject | None = None) -> None:
+        """`first`: what a user finds who has never pinned anything."""
         super().__init__(parent)
         self._state = state
-        self.texts: tuple[str, ...] = _tidy(state.texts("pinned sentences"))
+        kept = state.texts(_KEY) if state.has(_KEY) else first
+        self.texts: tuple[str, ...] = _tidy(kept)
 
     def __contains__(self, text: str) -> bool:
         return text in self.texts
@@ -44,7 +55,7 @@ class Pinned(QObject):
         tidy = _tidy(texts)
         if tidy != self.texts:
             self.texts = tidy
-            self._state.put("pinned sentences", list(tidy))
+            self._state.put(_KEY, list(tidy))
             self.changed.emit()
 
     def after(self, text: str, step: int = 1) -> str:
@@ -59,3 +70,22 @@ def _tidy(texts: Iterable[str]) -> tuple[str, ...]:
     """Each sentence once, without line breaks, none too long, not too many."""
     lines = (" ".join(text.split())[:LONGEST] for text in texts)
     return tuple(dict.fromkeys(line for line in lines if line))[:MOST]
+
+
+def read_lines(path: Path) -> list[str]:
+    """The lines of a text file that say something; UserError when it cannot be read as text."""
+    try:
+        with path.open("rb") as file:
+            data = file.read(BIGGEST + 1)
+    except OSError as error:
+        raise UserError(f"Cannot read {path}: {reason(error)}.") from error
+    if len(data) > BIGGEST:
+        raise UserError(f"{path} is longer than a million bytes: keep one sentence a line, {MOST} at most.")
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise UserError(f"{path} is no text in UTF-8: save it as UTF-8 and try again.") from error
+    lines = [line for line in text.splitlines() if line.strip()]
+    if not lines or "\0" in text:
+        raise UserError(f"{path} has no line of text: write one sentence a line.")
+    return lines

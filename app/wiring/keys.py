@@ -54,7 +54,8 @@ class KeysOfWindow(QObject):
         self._editor.search.setFocus()
 
     def _chosen(self, action: QAction) -> None:
-        self._window.canvas.set_keymap(action.data())
+        for canvas in (self._window.canvas, self._window.beside.canvas):
+            canvas.set_keymap(action.data())
         self._window.keymap_question.hide()
         self._state.put("keymap", action.data())
         self.shortcuts.set_keymap(action.data())

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import NDArray
 from PySide6.QtCore import QObject, Signal
 
 from core_pipeline.curve_set import Bigram
@@ -12,11 +13,15 @@ from core_pipeline.curves import Curve
 from core_pipeline.errors import UserError
 from core_pipeline.phone_classes import similar_bigrams
 from core_pipeline.phonemes import Pair
+from core_pipeline.pipeline import Stages
 from core_pipeline.speech.spelling import Span, in_words
 from core_pipeline.speech.utterance import Utterance
 from widgets.picker.bigram_model import spoken_pair
 
 from .parts import Parts
+
+#: Pose → normalised times and weights.
+Played = Mapping[str, tuple[NDArray[np.float64], NDArray[np.float64]]]
 
 
 class OpenBigram(QObject):
@@ -24,10 +29,15 @@ class OpenBigram(QObject):
 
     pair   the open bigram, None in a set without phonemes
     index  which of the sentence's bigrams it is, None when the sentence does not have it
-    opened(pair)  another one than before
+    visible, locked  poses
+    opened(pair)          another one than before
+    pose_activated(pose)  the pose that is edited
+    eyes_changed()        other poses are visible or locked
     """
 
     opened = Signal(object)
+    pose_activated = Signal(str)
+    eyes_changed = Signal()
 
     def __init__(self, parts: Parts, parent: QObject) -> None:
         super().__init__(parent)
@@ -37,8 +47,8 @@ class OpenBigram(QObject):
         self._window = parts.window
         self.pair: Pair | None = None
         self.index: int | None = None
-        self._visible: set[str] = set()
-        self._locked: set[str] = set()
+        self.visible: set[str] = set()
+        self.locked: set[str] = set()
         self._spelt: tuple[Utterance | None, list[tuple[str, Span]]] = (None, [])
         w = self._window
         w.canvas.preview_changed.connect(self._gesture)
@@ -102,7 +112,7 @@ class OpenBigram(QObject):
     def set_replaced(self) -> None:
         """Another set was opened: all its poses, and the same bigram if it has it, else F-Ah, the paper's example."""
         curve_set = self._document.curve_set
-        self._visible, self._locked = set(curve_set.poses), set()
+        self.visible, self.locked = set(curve_set.poses), set()
         phones = curve_set.phonemes
         wanted = [self.pair, ("f", "ah"), (phones[0], phones[0]) if phones else None]
         pair = next((p for p in wanted if p is not None and curve_set.has_pair(p)), None)
@@ -150,21 +160,8 @@ class OpenBigram(QObject):
         w.stage_panel.set_current(self.index, self.pair)
         w.header.set_usage(pairs.count(self.pair) if stages is not None and self.pair is not None else None)
         w.header.set_example(*self._example())
-        span = self.span()
-        if stages is None or span is None:
-            w.canvas.set_played(None)
-            w.canvas.set_boundary(0.5)
-            return
-        start, middle, end = span
-        w.canvas.set_boundary((middle - start) / (end - start))
-        played = {}
-        for pose in stages.poses:
-            track = stages.magenta[pose]
-            inside = (track.t > start) & (track.t < end)
-            t = np.concatenate(([start], track.t[inside], [end]))
-            v = track.at(t)
-            if v.any():
-                played[pose] = ((t - start) / (end - start), v)
+        boundary, played = place_in(stages, self.index)
+        w.canvas.set_boundary(boundary)
         w.canvas.set_played(played)
 
     def show_playhead(self, seconds: float) -> None:
@@ -177,11 +174,7 @@ class OpenBigram(QObject):
 
     def span(self) -> tuple[float, float, float] | None:
         """Start, boundary and end of the open bigram in the sentence, seconds; None when it is not there."""
-        stages = self._session.stages
-        if stages is None or self.index is None or self.index + 2 >= stages.schedule.times.size:
-            return None
-        start, middle, end = stages.schedule.times[self.index : self.index + 3].tolist()
-        return start, middle, end
+        return span_in(self._session.stages, self.index)
 
     @property
     def _bigram(self) -> Bigram:
@@ -252,6 +245,7 @@ class OpenBigram(QObject):
         self._window.canvas.set_active(pose)
         self._window.pose_list.set_active(pose)
         self._window.stage_panel.set_active_pose(pose)
+        self.pose_activated.emit(pose)
 
     def _activate_drawn_pose(self) -> None:
         """A bigram opens with a pose that it moves: the present one if it can be, else the strongest."""
@@ -266,11 +260,38 @@ class OpenBigram(QObject):
             self.activate_pose(poses[0])
 
     def _visibility_changed(self, pose: str, visible: bool) -> None:
-        (self._visible.add if visible else self._visible.discard)(pose)
-        self._window.pose_list.set_visible_poses(self._visible)
-        self._window.canvas.set_visible_poses(self._visible)
+        (self.visible.add if visible else self.visible.discard)(pose)
+        self._window.pose_list.set_visible_poses(self.visible)
+        self._window.canvas.set_visible_poses(self.visible)
+        self.eyes_changed.emit()
 
     def _lock_changed(self, pose: str, locked: bool) -> None:
-        (self._locked.add if locked else self._locked.discard)(pose)
-        self._window.pose_list.set_locked(self._locked)
-        self._window.canvas.set_locked(self._locked)
+        (self.locked.add if locked else self.locked.discard)(pose)
+        self._window.pose_list.set_locked(self.locked)
+        self._window.canvas.set_locked(self.locked)
+        self.eyes_changed.emit()
+
+
+def span_in(stages: Stages | None, index: int | None) -> tuple[float, float, float] | None:
+    """Start, boundary and end of one of the sentence's bigrams, seconds; None when it is not there."""
+    if stages is None or index is None or index + 2 >= stages.schedule.times.size:
+        return None
+    start, middle, end = stages.schedule.times[index : index + 3].tolist()
+    return start, middle, end
+
+
+def place_in(stages: Stages | None, index: int | None) -> tuple[float, Played | None]:
+    """Where the boundary of one of the sentence's bigrams is, 0…1, and what the pipeline makes of its poses there."""
+    span = span_in(stages, index)
+    if stages is None or span is None:
+        return 0.5, None
+    start, middle, end = span
+    played = {}
+    for pose in stages.poses:
+        track = stages.magenta[pose]
+        inside = (track.t > start) & (track.t < end)
+        t = np.concatenate(([start], track.t[inside], [end]))
+        v = track.at(t)
+        if v.any():
+            played[pose] = ((t - start) / (end - start), v)
+    return (middle - start) / (end - start), played

@@ -17,7 +17,7 @@ from widgets.window.palette_choices import Choice
 from ..shortcuts import native
 from .open_bigram import OpenBigram
 from .parts import Parts
-from .sentence import RATE, VOICE, Sentence
+from .sentence import RATE, Sentence
 
 #: So many of what was chosen last come first.
 RECENT = 8
@@ -85,11 +85,12 @@ class Palette(QObject):
         """What is typed may be a word with bigrams, or a sentence to say."""
         self.view.set_found(text, self._saying(text))
         if len(text) > 1 and text.isalpha():
-            self._search.request(text, VOICE, RATE)
+            self._search.request(text, self._sentence.voice, RATE)
 
     def _saying(self, text: str) -> list[Choice]:
         say = Choice(f"say:{text}", self.tr("Say “{0}”").format(text), self.tr("Sentence"))
-        return [say] if " " in text and len(text) > 5 else []
+        known = any(text.casefold() in pinned.casefold() for pinned in self._sentence.pinned.texts)
+        return [say] if " " in text and len(text) > 5 and not known else []
 
     def _word_spoken(self, utterance: Utterance) -> None:
         text = self.view.query

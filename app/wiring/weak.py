@@ -108,6 +108,8 @@ class Weak(QObject):
         pairs = stages.schedule.pairs() if stages is not None else []
         words = zip(reversed(pairs), reversed(self._bigram.examples), strict=False)  # of several, the first
         w.picker.set_words({pair: text for pair, (text, _) in words if text})
+        if stages is not None and stages.poses != session.curve_set.poses:
+            return  # another set has just been opened: its stages are on their way
         if not session.in_gesture and not session.shows_other:  # when it ends there is a new result
             self._diagnoser.request((session.curve_set, stages))
 

@@ -1,8 +1,9 @@
 """The only place, with its neighbours, where wishes become commands and values reach the views.
 
-open_bigram.py has the canvas and what belongs to it, sentence.py the sentence and its transport,
-character.py the face, mapping.py what makes its poses, palette.py the command palette, keys.py keymaps and
-shortcuts; here is the rest: the document's news, the pipeline's results, settings, search, menus.
+open_bigram.py has the canvas and what belongs to it, sentence.py the sentence and its transport, character.py the
+face, company.py those beside it, face_picker.py their choice, looks.py light and camera, mapping.py what makes a
+face's poses, palette.py the command palette, keys.py keymaps and shortcuts; here is the rest: the document's news,
+the pipeline's results, settings, search, menus.
 """
 
 from __future__ import annotations
@@ -25,19 +26,25 @@ from ..cast import Actor, Source
 from ..exchange import Exchange
 from ..preview import BIGRAM_SECONDS
 from .before_after import BeforeAfter
+from .beside import Beside
 from .carrier import Carrier
 from .character import Character
 from .compare import Compare
+from .face_picker import FacePicking
 from .keys import KeysOfWindow
+from .layouts import Layouts
+from .looks import Looks
 from .mapping import Mapping
 from .open_bigram import OpenBigram
 from .other_method import OtherMethod
 from .palette import Palette
 from .parts import Parts
 from .queue import Queue
-from .sentence import RATE, VOICE, Sentence
+from .sentence import RATE, Sentence
+from .sentences import Sentences
 from .statistics import Statistics
 from .suggesting import Suggesting
+from .tabs import Tabs
 from .time_spent import TimeSpent
 from .weak import Weak
 
@@ -57,8 +64,12 @@ class Wiring(QObject):
         self._statuses: dict[Pair, str] = {}
         self.exchange = Exchange(parts.files, parts.session)
         self.bigram = OpenBigram(parts, self)
+        self.tabs = Tabs(parts, self.bigram, self)
         self.sentence = Sentence(parts, self)
+        self.sentences = Sentences(parts, self.sentence, self)
         self.character = Character(parts, self)
+        self.picking = FacePicking(parts, self.character, self)
+        self.looks = Looks(parts, self)
         self.mapping = Mapping(parts, self)
         self.weak = Weak(parts, self.bigram, self.sentence, self)
         self.suggesting = Suggesting(parts, self.bigram, self.weak, self)
@@ -70,9 +81,11 @@ class Wiring(QObject):
         self.statistics = Statistics(parts, self.queue, self)
         self.palette = Palette(parts, self.bigram, self.sentence, self)
         self.keys = KeysOfWindow(parts, self)
+        self.layouts = Layouts(parts, self.keys.shortcuts, self)
         self.before_after = BeforeAfter(parts, self)
         self.bigram.opened.connect(self.before_after.forget)
         self._connect_document()
+        self.beside = Beside(parts, self.bigram, self)  # after: it follows what the document has told the canvas
         self._connect_views()
         self._connect_menu()
         self._set_replaced()
@@ -107,7 +120,7 @@ class Wiring(QObject):
         w.bigram_transport.play_toggled.connect(preview.toggle_bigram)
         w.bigram_transport.length_changed.connect(preview.set_bigram_length)
         w.settings_panel.settings_changed.connect(self._settings_wanted)
-        w.picker.search_wanted.connect(lambda text: self._search.request(text, VOICE, RATE))
+        w.picker.search_wanted.connect(lambda text: self._search.request(text, self.sentence.voice, RATE))
         self._search.spoken.connect(self._word_found)
         self._search.failed.connect(self._word_not_found)
         preview.bigram_player.playing_changed.connect(w.bigram_transport.set_playing)
@@ -137,8 +150,8 @@ class Wiring(QObject):
             (a.play, self._preview.toggle_sentence),
             (a.play_bigram, self._preview.toggle_bigram),
             (a.to_start, self.sentence.to_start),
-            (a.reset_view, w.face_view.reset_wanted.emit),
-            (a.default_layout, w.default_layout),
+            (a.next_part, w.focus_ring.go),
+            (a.previous_part, lambda: w.focus_ring.go(-1)),
             (a.about, self._about),
         ):
             action.triggered.connect(lambda _=False, act=act: act())
@@ -176,7 +189,7 @@ class Wiring(QObject):
         self._show_statuses()
         if pair == self.bigram.pair:
             self.bigram.show_curves()
-        else:
+        elif pair != self.beside.pair:
             self.bigram.open(pair)  # undo reached another bigram: show what it did
 
     def _bigrams_changed(self) -> None:
@@ -299,16 +312,21 @@ class Wiring(QObject):
         w.picker.set_order(state.text("order of phones"))
         w.actions_.safe_colours.setChecked(state.flag("safe colours", False))
         self.keys.restore()
+        self.looks.restore()
         self.character.restore()
         self.sentence.set_loop(state.flag("loop", True))
-        w.transport.set_speed(state.number("speed", 1.0))
+        w.voice_bar.set_speed(state.number("speed", 1.0))
         self._preview.player.set_speed(state.number("speed", 1.0))
+        self.sentence.set_voice(state.text("voice"))
 
     def remember(self) -> None:
         """Keep this time's layout."""
         state, w, player = self._state, self._window, self._preview.player
         self.character.remember()
+        self.looks.remember()
+        self.picking.close()
         self.mapping.close()
+        self.sentences.remember()
         state.put("geometry", w.saveGeometry())
         state.put("docks", w.saveState())
         state.put("order of phones", w.picker.order_name)
@@ -316,6 +334,7 @@ class Wiring(QObject):
         state.put("safe colours", w.actions_.safe_colours.isChecked())
         state.put("loop", player.looping)
         state.put("speed", player.speed)
+        state.put("voice", self.sentence.voice)
         self.weak.close()
         self.carrier.close()
         self.time_spent.close()

@@ -80,7 +80,7 @@ class Dictionary:
         scale = _USUAL_RATE / rate / 1000
         for word, first, last in tokens(sentence.text):
             start = len(phones)
-            for part in _parts(word):
+            for part in spoken_parts(word):
                 found = self.look_up(part)
                 if not found:
                     found = sound_out(part)
@@ -116,7 +116,7 @@ def installed() -> Dictionary:
     return Dictionary(find_dictionary())
 
 
-def _parts(word: str) -> list[str]:
+def spoken_parts(word: str) -> list[str]:
     """ "Well-known" → well, known; "$42" → forty, two, dollars: lower case, without accents."""
     plain = unicodedata.normalize("NFKD", word.replace("’", "'").lower())
     plain = "".join(c for c in plain if not unicodedata.combining(c))

@@ -98,18 +98,21 @@ class CanvasHeader(QWidget):
 
     def set_example(self, word: str, span: tuple[int, int] = (0, 0)) -> None:
         """A word with this bigram, "" for none; the letters from span[0] to before span[1] are highlighted."""
-        self._word, self._span = word, span
-        self._show()
+        if (word, span) != (self._word, self._span):
+            self._word, self._span = word, span
+            self._show()
 
     def set_usage(self, count: int | None) -> None:
         """How often the sentence uses the bigram; None when there is no sentence."""
-        self._used = count
-        self._show()
+        if count != self._used:
+            self._used = count
+            self._show()
 
     def set_status(self, status: str) -> None:
         """How far the work has come, as a word to show."""
-        self._status = status
-        self._show()
+        if status != self._status:
+            self._status = status
+            self._show()
 
     def set_time_spent(self, text: str) -> None:
         """How long the user has worked on the bigram, shown where there is room for it."""

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 import pyqtgraph as pg
 from numpy.typing import NDArray
-from PySide6.QtCore import QLineF, QPointF, Qt
-from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
+from PySide6.QtCore import QLineF, Qt
+from PySide6.QtGui import QColor, QPainter, QPen
 
 from .. import theme
 from ..theme import StageStyle
@@ -53,6 +53,8 @@ class RowPlace:
 
 #: Another method's curve.
 METHOD = theme.mix(theme.MUTED, theme.BRIGHT, 0.6)
+#: The final curve before the last edit.
+_GHOST = StageStyle("Before", theme.MUTED, 1.0, ())
 
 Draw = Callable[[QPainter, RowPlace, PoseLines, StageStyle], None]
 
@@ -148,11 +150,12 @@ def _draw_change(painter: QPainter, place: RowPlace, before: Line, after: Line, 
         painter.setBrush(fill)
         # The edges are drawn as lines anyway, and without antialiasing a fill costs a tenth.
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
-        xs, top, bottom = x.tolist(), upper.tolist(), (place.base - place.tall * changed.before).tolist()
+        lower = place.base - place.tall * changed.before
         for a, b in _runs(changed.differs):
-            over = [QPointF(xs[k], top[k]) for k in range(a, b + 1)]
-            under = [QPointF(xs[k], bottom[k]) for k in range(b, a - 1, -1)]
-            painter.drawPolygon(QPolygonF(over + under))
+            there = slice(a, b + 1)
+            xs = np.concatenate((x[there], x[there][::-1]))
+            ys = np.concatenate((upper[there], lower[there][::-1]))
+            painter.drawPolygon(pg.functions.arrayToQPolygonF(xs, ys))
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
     painter.setPen(style.pen())
@@ -181,10 +184,9 @@ LAYERS: tuple[Layer, ...] = (
 )
 
 
-def draw_ghost(painter: QPainter, place: RowPlace, lines: PoseLines) -> None:
-    """The final curve as it was before, in grey, under everything."""
-    painter.setPen(QPen(theme.GHOST, 1))
-    _draw_thin(painter, place, [lines.stage["magenta"]])
+def draw_ghost(painter: QPainter, place: RowPlace, before: PoseLines, now: PoseLines) -> None:
+    """Under everything, the final curve as it was before, in grey where it was another one."""
+    _draw_change(painter, place, now.stage["magenta"], before.stage["magenta"], _GHOST)
 
 
 def draw_other(painter: QPainter, place: RowPlace, lines: PoseLines, style: StageStyle) -> None:

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QSizePolicy, QToolButton, QWidget
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QToolButton, QWidget
 
 from .. import theme
 from ..canvas.keymaps import KEYMAPS, NEUTRAL
-from ..elided_label import ElidedLabel
 
 
 class KeymapQuestion(QFrame):
@@ -22,9 +21,6 @@ class KeymapQuestion(QFrame):
         self.setStyleSheet(f"#question{{background:{theme.CHECKED.name()}}}")
         question = QLabel(self.tr("Which keys do your fingers know?"))
         question.setFont(theme.font(bold=True))
-        hint = ElidedLabel()
-        hint.set_text(self.tr("The Edit menu changes it later"), theme.TEXT)
-        hint.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.buttons: dict[str, QPushButton] = {}
         titles = {NEUTRAL: self.tr("Neutral"), "Maya": self.tr("Maya"), "Blender": self.tr("Blender")}
         row = QHBoxLayout(self)
@@ -33,14 +29,14 @@ class KeymapQuestion(QFrame):
         row.addWidget(question)
         for name, keymap in KEYMAPS.items():
             button = self.buttons[name] = QPushButton(titles[name])
-            tip = self.tr("{grab} moves keys, {scale} scales, {add} adds, {frame_all} frames all").format(
-                **{action: keys[0] for action, keys in keymap.items()}
-            )
+            tip = self.tr(
+                "{grab} moves keys, {scale} scales, {add} adds, {frame_all} frames all. Edit → Keys changes it later."
+            ).format(**{action: keys[0] for action, keys in keymap.items()})
             button.setToolTip(tip)
             button.setAccessibleDescription(tip)
             button.clicked.connect(lambda _=False, name=name: self._choose(name))
             row.addWidget(button)
-        row.addWidget(hint, 1)
+        row.addStretch(1)
         close = QToolButton()
         close.setIcon(theme.icon("close"))
         close.setText(self.tr("Not now"))

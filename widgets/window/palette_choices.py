@@ -11,8 +11,9 @@ from .fuzzy import fit
 #: At most so many are offered: nobody scrolls further.
 MOST = 60
 
-#: What an exact name is worth, the beginning of one, and having been used lately (the newest most).
-_EXACT, _BEGINNING, _RECENT = 100.0, 14.0, 6.0
+#: What an exact name is worth, the beginning of one, a piece of a sentence, and having been used lately: the
+#: newest most.
+_EXACT, _BEGINNING, _PIECES, _RECENT = 100.0, 14.0, 4.0, 6.0
 #: A choice found by its group first, "view layout", is worth less than one found by its title alone.
 _BY_GROUP = -6.0
 
@@ -96,7 +97,7 @@ def _by_pieces(query: str, choice: Choice) -> tuple[float, tuple[int, ...]] | No
         if at < 0:
             return None
         places.update(range(at, at + len(piece)))
-    return _BEGINNING + len(places), tuple(sorted(places))
+    return _PIECES + len(places), tuple(sorted(places))
 
 
 def _by_name(query: str, choice: Choice) -> tuple[float, tuple[int, ...]] | None:
