@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,15 +18,12 @@ from core_pipeline.pipeline import Stages
 from core_pipeline.weights import Weights, bake
 from widgets.overlay.method_box import NONE
 
-from ..cast import Source
 from ..method_learner import MethodLearner, Wish
+from .company import Company
 from .parts import Parts
 
 FPS = 60.0
 FILE = "file"
-
-#: Shows faces beside the first, (title, source) each, and what the first is called meanwhile.
-ShowBeside = Callable[[Sequence[tuple[str, Source]], str], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,11 +53,12 @@ class MethodSource:
 class OtherMethod(QObject):
     """Learns or reads the chosen method and shows what it makes of the present sentence."""
 
-    def __init__(self, parts: Parts, show_beside: ShowBeside, parent: QObject) -> None:
+    def __init__(self, parts: Parts, company: Company, parent: QObject) -> None:
         super().__init__(parent)
         self._window, self._session, self._state = parts.window, parts.session, parts.state
         self._document = parts.document
-        self._show_beside = show_beside
+        self._company = company
+        self._is_beside = False
         self._key, self._path = NONE, Path()
         self.method: Method | None = None
         self.weights: Weights | None = None
@@ -167,7 +164,8 @@ class OtherMethod(QObject):
         self._show_faces()
 
     def _show_faces(self, _: bool = False) -> None:
-        if self.weights is None or self.method is None or not self._box.beside.isChecked():
-            self._show_beside((), "")
-        else:
-            self._show_beside([(self.method.title, MethodSource(self.weights))], self.tr("These curves"))
+        was, self._is_beside = self._is_beside, self.weights is not None and self._box.beside.isChecked()
+        if self._is_beside and self.weights is not None and self.method is not None:
+            self._company.compare([(self.method.title, MethodSource(self.weights))], self.tr("These curves"))
+        elif was:
+            self._company.compare(())

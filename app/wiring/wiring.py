@@ -8,7 +8,6 @@ the pipeline's results, settings, search, menus.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 
 from PySide6.QtCore import QObject
@@ -22,7 +21,6 @@ from core_pipeline.poses import MEANING
 from core_pipeline.settings import Settings
 from core_pipeline.speech.utterance import Utterance
 
-from ..cast import Actor, Source
 from ..exchange import Exchange
 from ..preview import BIGRAM_SECONDS
 from .before_after import BeforeAfter
@@ -77,7 +75,7 @@ class Wiring(QObject):
         self.queue = Queue(parts, self.bigram, self.weak, self.carrier, self)
         self.time_spent = TimeSpent(parts, self.bigram, self)
         self.compare = Compare(parts, self.bigram, self)
-        self.other_method = OtherMethod(parts, self._show_beside, self)
+        self.other_method = OtherMethod(parts, self.character.company, self)
         self.statistics = Statistics(parts, self.queue, self)
         self.palette = Palette(parts, self.bigram, self.sentence, self)
         self.keys = KeysOfWindow(parts, self)
@@ -268,14 +266,6 @@ class Wiring(QObject):
     def _word_not_found(self, reason: str) -> None:
         self._window.picker.set_matches([])
         self._window.hint_label.setText(reason)
-
-    def _show_beside(self, rivals: Sequence[tuple[str, Source]], title: str) -> None:
-        """The first face once more for each rival; without one, as it was."""
-        actors = self._preview.actors
-        shown = [actor for actor in actors[1:] if actor.source is not None]
-        if actors and (rivals or shown):
-            face = actors[0].face
-            self._preview.set_actors([Actor(face, None, title), *(Actor(face, s, name) for name, s in rivals)])
 
     # ── the window ───────────────────────────────────────────────────────────────────────────────
 
