@@ -35,6 +35,7 @@ from .layouts import Layouts
 from .looks import Looks
 from .mapping import Mapping
 from .open_bigram import OpenBigram
+from .other_method import OtherMethod
 from .palette import Palette
 from .parts import Parts
 from .phone_sets import PhoneSets
@@ -76,6 +77,7 @@ class Wiring(QObject):
         self.queue = Queue(parts, self.bigram, self.weak, self.carrier, self)
         self.time_spent = TimeSpent(parts, self.bigram, self)
         self.compare = Compare(parts, self.bigram, self)
+        self.other_method = OtherMethod(parts, self.character.company, self)
         self.statistics = Statistics(parts, self.queue, self)
         self.layers = Layers(parts, self.bigram, self)
         self.phone_sets = PhoneSets(parts, self)
@@ -333,3 +335,4 @@ class Wiring(QObject):
         self.weak.close()
         self.carrier.close()
         self.time_spent.close()
+        self.other_method.close()
