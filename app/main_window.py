@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import QByteArray, Qt, Signal
+from PySide6.QtCore import QByteArray, QEvent, Qt, Signal
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeyEvent, QPalette, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QDockWidget,
@@ -26,21 +26,27 @@ from widgets.canvas.curve_panel import CurvePanel
 from widgets.canvas.pose_list import PoseList
 from widgets.overlay.stage_panel import StagePanel
 from widgets.picker.bigram_picker import BigramPicker
-from widgets.picker.weak_list import WeakList
+from widgets.picker.weak_panel import WeakPanel
+from widgets.preview.face_picker import FacePicker
 from widgets.preview.face_view import FaceView
 from widgets.preview.mapping_panel import MappingPanel
+from widgets.preview.preview_panel import PreviewPanel
 from widgets.preview.weights_bars import WeightsBars
 from widgets.sentence_bar import SentenceBar
 from widgets.settings.settings_panel import SettingsPanel
 from widgets.transport import Transport
+from widgets.voice_bar import VoiceBar
+from widgets.window.beside_panel import BesidePanel
+from widgets.window.bigram_tabs import BigramTabs
+from widgets.window.keymap_question import KeymapQuestion
+from widgets.window.sentence_list import SentenceList
 
 from .actions import Actions
 from .document import Document
+from .focus_ring import FocusRing
+from .layouts import AUTHOR, LOW, arrange
 
 _Area = Qt.DockWidgetArea
-
-#: In a window lower than this some docks share one place, as tabs.
-LOW = 860
 
 
 class MainWindow(QMainWindow):
@@ -48,10 +54,12 @@ class MainWindow(QMainWindow):
 
     play_wanted()  Space, where nothing that has the focus wants it
     dropped(Path)  a file or folder was dropped on the window
+    let_go()       a key was released, or another window came to the front
     """
 
     play_wanted = Signal()
     dropped = Signal(Path)
+    let_go = Signal()
 
     def __init__(self, document: Document) -> None:
         super().__init__()
@@ -61,29 +69,39 @@ class MainWindow(QMainWindow):
         self.setCorner(Qt.Corner.BottomLeftCorner, _Area.BottomDockWidgetArea)
         self.setCorner(Qt.Corner.BottomRightCorner, _Area.BottomDockWidgetArea)
         self._sized = False
+        self._layout = AUTHOR
+        self._homes: dict[str, _Area] = {}
         self.may_close: Callable[[], bool] = lambda: True
 
         self.picker = BigramPicker()
-        self.weak_list = WeakList()
+        self.weak_panel = WeakPanel()
+        self.weak_list = self.weak_panel.list
         self.header = CanvasHeader()
         self.bigram_transport = BigramTransport()
         self.pose_list = PoseList()
         self.canvas = CurveCanvas()
         self.curve_panel = CurvePanel(self.canvas)
+        self.beside = BesidePanel()
+        self.bigram_tabs = BigramTabs()
         self.face_view = FaceView()
+        self.preview_panel = PreviewPanel(self.face_view)
+        self.face_picker = FacePicker(self)
         self.weights = WeightsBars()
         self.settings_panel = SettingsPanel()
         self.mapping_panel = MappingPanel()
         self.stage_panel = StagePanel()
         self.transport = Transport()
         self.sentence_bar = SentenceBar()
+        self.voice_bar = VoiceBar()
+        self.sentence_list = SentenceList()
+        self.keymap_question = KeymapQuestion()
 
         self.actions_ = Actions(self, document.undo_stack)
-        self._toolbar()
-        self._centre()
+        bar, centre = self._toolbar(), self._centre()
         self._docks()
         self._status()
-        self._first_state = self.saveState()
+        self._hidden = [dock.objectName() for dock in self.findChildren(QDockWidget) if dock.isHidden()]
+        self.focus_ring = FocusRing(self, bar, centre)
         self.setAcceptDrops(True)
         self.setMinimumSize(1120, 640)
         self.resize(1600, 1000)
@@ -113,19 +131,31 @@ class MainWindow(QMainWindow):
         else:
             super().keyPressEvent(event)
 
+    def keyReleaseEvent(self, event: QKeyEvent) -> None:
+        """Qt's hook: what lasts while a key is held ends."""
+        super().keyReleaseEvent(event)
+        if not event.isAutoRepeat():
+            self.let_go.emit()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Qt's hook: a key let go in another window is never heard of here."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.ActivationChange and not self.isActiveWindow():
+            self.let_go.emit()
+
     def showEvent(self, event: QShowEvent) -> None:
         """Give the docks their first sizes once the window has its own."""
         super().showEvent(event)
         if not self._sized:
             self._sized = True
-            self.default_layout()
+            self.use_layout(self._layout)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """A window made low puts its docks behind one another."""
         super().resizeEvent(event)
         if self._sized and event.size().height() < LOW <= event.oldSize().height():
             mapping = self.mapping_dock.toggleViewAction().isChecked()
-            self.default_layout()
+            self.use_layout(self._layout)
             if mapping:
                 self.mapping_dock.show()
                 self.mapping_dock.raise_()
@@ -135,26 +165,20 @@ class MainWindow(QMainWindow):
         self.restoreGeometry(geometry)
         self._sized = self.restoreState(docks)
 
-    def default_layout(self) -> None:
-        """Docks for this window's size: side by side where there is room, behind one another where not."""
-        width, height = self.width(), self.height()
-        self.restoreState(self._first_state)
-        if height < LOW:
-            self.tabifyDockWidget(self.bigrams_dock, self.weak_dock)
-            self.tabifyDockWidget(self.preview_dock, self.weights_dock)
-            self.tabifyDockWidget(self.weights_dock, self.settings_dock)
-            self.tabifyDockWidget(self.weak_dock, self.mapping_dock)  # across from the face it changes
-            self.bigrams_dock.raise_()
-            self.preview_dock.raise_()
-        left, right = min(420, width // 4), min(400, width // 4)
-        self.resizeDocks([self.bigrams_dock, self.preview_dock], [left, right], Qt.Orientation.Horizontal)
-        self.resizeDocks([self.stages_dock], [int(height * 0.34)], Qt.Orientation.Vertical)
-        if height >= LOW:
-            upper = int(height * 0.58)
-            self.resizeDocks([self.bigrams_dock, self.weak_dock], [upper - 120, 120], Qt.Orientation.Vertical)
-            self.resizeDocks([self.preview_dock, self.weights_dock], [upper - 190, 190], Qt.Orientation.Vertical)
+    def use_layout(self, name: str = AUTHOR) -> None:
+        """One of layouts.PRESETS, for this window's size."""
+        self._layout = name
+        arrange(self, name, self._homes, self._hidden)
 
-    def _toolbar(self) -> None:
+    def show_beside(self, on: bool) -> None:
+        """One canvas, or two of the same width; Space plays where there is no room for the button."""
+        self.bigram_transport.setVisible(not on)
+        poses = self._canvases.sizes()[0]
+        room = self._canvases.width() - poses
+        self.beside.setVisible(on)
+        self._canvases.setSizes([poses, room // 2, room // 2] if on else [poses, room, 0])
+
+    def _toolbar(self) -> QToolBar:
         bar = QToolBar(self.tr("Sentence"))
         bar.setObjectName("sentence bar")
         bar.setMovable(False)
@@ -165,58 +189,67 @@ class MainWindow(QMainWindow):
         bar.addWidget(self.transport)
         self.sentence_bar.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
         bar.addWidget(self.sentence_bar)
+        bar.addWidget(self.voice_bar)
         self.addToolBar(bar)
+        return bar
 
-    def _centre(self) -> None:
+    def _centre(self) -> QWidget:
         head = QWidget()
         row = QHBoxLayout(head)
         row.setContentsMargins(0, 0, 8, 0)
         row.setSpacing(6)
         row.addWidget(self.header, 1)
         row.addWidget(self.bigram_transport)
+        first = QWidget()
+        column = QVBoxLayout(first)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addWidget(head)
+        column.addWidget(self.curve_panel, 1)
         body = QSplitter(Qt.Orientation.Horizontal)
         body.setHandleWidth(3)
-        body.addWidget(self.pose_list)
-        body.addWidget(self.curve_panel)
-        body.setStretchFactor(0, 0)
-        body.setStretchFactor(1, 1)
+        for i, part in enumerate((self.pose_list, first, self.beside)):
+            body.addWidget(part)
+            body.setStretchFactor(i, min(i, 1))
         body.setChildrenCollapsible(False)
+        self._canvases = body
+        self.beside.set_head_height(head.sizeHint().height())
         centre = QWidget()
         column = QVBoxLayout(centre)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
-        column.addWidget(head)
+        column.addWidget(self.keymap_question)
+        column.addWidget(self.bigram_tabs)
         column.addWidget(body, 1)
         centre.setMinimumSize(360, 180)
         self.setCentralWidget(centre)
+        return centre
 
     def _docks(self) -> None:
-        self.bigrams_dock = self._dock(self.tr("Bigrams"), self.picker, _Area.LeftDockWidgetArea)
-        self.weak_dock = self._dock(self.tr("Weak bigrams"), self.weak_list, _Area.LeftDockWidgetArea)
-        self.preview_dock = self._dock(self.tr("Preview"), self.face_view, _Area.RightDockWidgetArea)
-        self.weights_dock = self._dock(self.tr("Pose weights"), self.weights, _Area.RightDockWidgetArea)
-        self.settings_dock = self._dock(self.tr("Pipeline settings"), self.settings_panel, _Area.RightDockWidgetArea)
-        self.stages_dock = self._dock(self.tr("Pipeline stages"), self.stage_panel, _Area.BottomDockWidgetArea)
-        self.mapping_dock = self._dock(self.tr("Face mapping"), self.mapping_panel, _Area.RightDockWidgetArea)
-        self.tabifyDockWidget(self.weights_dock, self.settings_dock)
-        self.tabifyDockWidget(self.settings_dock, self.mapping_dock)
+        left, right, below = _Area.LeftDockWidgetArea, _Area.RightDockWidgetArea, _Area.BottomDockWidgetArea
+        self.bigrams_dock = self.add_dock("bigrams", self.tr("Bigrams"), self.picker, left)
+        self.weak_dock = self.add_dock("weak", self.tr("Weak bigrams"), self.weak_panel, left)
+        self.sentences_dock = self.add_dock("sentences", self.tr("Sentences"), self.sentence_list, left)
+        self.preview_dock = self.add_dock("preview", self.tr("Preview"), self.preview_panel, right)
+        self.weights_dock = self.add_dock("weights", self.tr("Pose weights"), self.weights, right)
+        self.settings_dock = self.add_dock("settings", self.tr("Pipeline settings"), self.settings_panel, right)
+        self.stages_dock = self.add_dock("stages", self.tr("Pipeline stages"), self.stage_panel, below)
+        self.mapping_dock = self.add_dock("mapping", self.tr("Face mapping"), self.mapping_panel, right)
         self.mapping_dock.hide()
-        self.weights_dock.raise_()
-        menu = self.actions_.view_menu
-        menu.addSeparator()
-        for dock in self.findChildren(QDockWidget):
-            show = dock.toggleViewAction()
-            show.triggered.connect(lambda on, dock=dock: dock.raise_() if on else None)  # before others of its place
-            menu.addAction(show)
 
-    def _dock(self, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
+    def add_dock(self, name: str, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
+        """A dock with a switch in View → Docks; `name` is what the layout is remembered by."""
         dock = QDockWidget(title)
-        dock.setObjectName(title)
+        dock.setObjectName(name)
         dock.setWidget(widget)
         dock.setFeatures(
             QDockWidget.DockWidgetFeature.DockWidgetMovable | QDockWidget.DockWidgetFeature.DockWidgetClosable
         )
         self.addDockWidget(area, dock)
+        self._homes[name] = area
+        show = self.actions_.docks_menu.put(f"dock.{name}", dock.toggleViewAction())
+        show.setStatusTip(self.tr("Show or hide this dock"))
+        show.triggered.connect(lambda on: dock.raise_() if on else None)  # before others of its place
         return dock
 
     def _status(self) -> None:
@@ -231,6 +264,7 @@ class MainWindow(QMainWindow):
             label.setTextFormat(Qt.TextFormat.PlainText)  # names from files are no markup
         bar = self.statusBar()
         bar.setSizeGripEnabled(False)
+        bar.setContentsMargins(6, 0, 6, 0)
         bar.addWidget(self.selection_label)
         bar.addWidget(self.hint_label, 1)
         for label in (self.missing_label, self.timing_label, self.saved_label):

@@ -9,6 +9,16 @@ from core_pipeline.errors import UserError
 #: What the editor says first, and where there is no display.
 DEMO_SENTENCE = "Fat cats often find fish."
 
+#: What is pinned at first: every lip closure, rounding, spread and tongue is in one of them.
+TEST_SENTENCES = (
+    DEMO_SENTENCE,
+    "My mother bought five blue shoes above the big shop.",
+    "A dill-lover feared rye.",
+    "Few voices ever wave at thirsty fishes.",
+    "She chose a cheap orange jumper for the voyage.",
+    "Go quickly, the yellow goat is waking up now.",
+)
+
 _HERE = Path(__file__).resolve().parent
 
 
@@ -23,6 +33,11 @@ def assets() -> Path:
 def english_curves() -> Path:
     """The shipped English curve set."""
     return assets() / "curves" / "english.json"
+
+
+def corpus() -> Path:
+    """The folder of our corpus and the table of how often it has each pair."""
+    return assets() / "corpus"
 
 
 def retarget_presets() -> Path:

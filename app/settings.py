@@ -15,6 +15,10 @@ class ViewState:
         self.folder = folder if folder is not None else default_folder()
         self._values = QSettings(str(self.folder / "lipstitch.ini"), QSettings.Format.IniFormat)
 
+    def has(self, name: str) -> bool:
+        """Whether anything of this name was ever remembered."""
+        return self._values.contains(name)
+
     def text(self, name: str, default: str = "") -> str:
         """A remembered text."""
         value = self._values.value(name)
@@ -50,6 +54,10 @@ class ViewState:
         elif isinstance(value, float | int):
             value = str(value)
         self._values.setValue(name, value)
+
+    def remove(self, name: str) -> None:
+        """Remember it no more."""
+        self._values.remove(name)
 
     def write(self) -> None:
         """Put it on disk; a read-only home is no reason to complain."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from PySide6.QtCore import QEvent, QObject, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QSizePolicy, QWidget
@@ -28,9 +30,11 @@ class SentenceBar(QWidget):
 
     sentence_entered(text)  the user has typed a sentence: after a short pause, or at once with Enter. Spaces are
                             tidied; the same sentence comes twice only by Enter. "" when the field was emptied.
+    history_changed()       a sentence was finished
     """
 
     sentence_entered = Signal(str)
+    history_changed = Signal()
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -81,6 +85,11 @@ class SentenceBar(QWidget):
     def history(self) -> tuple[str, ...]:
         """Finished sentences, oldest first."""
         return tuple(self._history)
+
+    def set_history(self, texts: Sequence[str]) -> None:
+        """Sentences finished earlier, oldest first; emits nothing."""
+        self._history = list(dict.fromkeys(settled for text in texts if (settled := _settled(text))))[-HISTORY:]
+        self._at = len(self._history)
 
     def sizeHint(self) -> QSize:
         """Room for a sentence of usual length."""
@@ -155,6 +164,7 @@ class SentenceBar(QWidget):
     def _remember(self, text: str) -> None:
         if text and text not in self._history[-1:]:
             self._history = [*(old for old in self._history if old != text), text][-HISTORY:]
+            self.history_changed.emit()
         self._at = len(self._history)
 
     def _walk(self, step: int) -> None:

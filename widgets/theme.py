@@ -138,12 +138,14 @@ QMainWindow::separator{{background:{background};width:4px;height:4px}}
 QMainWindow::separator:hover{{background:{accent}}}
 QDockWidget{{color:{text};font-weight:600}}
 QDockWidget::title{{background:{panel};padding:5px 8px;border-bottom:1px solid {background}}}
+QDockWidget[here="true"]::title{{border-bottom:1px solid {accent}}}
 QToolBar{{background:{window};border:0;border-bottom:1px solid {background};spacing:4px;padding:4px 6px}}
 QStatusBar{{background:{panel};color:{muted}}} QStatusBar::item{{border:0}}
 QLineEdit{{background:{background};border:1px solid {border};border-radius:4px;padding:4px 8px}}
 QLineEdit:focus{{border-color:{accent}}}
 QToolButton{{padding:4px;border:1px solid transparent;border-radius:4px}} QToolButton:hover{{background:{border}}}
 QToolButton:checked{{background:{checked}}} QToolButton:focus{{border-color:{accent}}}
+QAbstractItemView{{selection-background-color:{checked}}}
 QToolTip{{color:{text};background:{raised};border:1px solid {border};padding:3px 5px}}
 """
 

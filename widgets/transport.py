@@ -1,4 +1,4 @@
-"""Playing the sentence: buttons, the time, the speed, and whether there is sound."""
+"""Playing the sentence: buttons and the time."""
 
 from __future__ import annotations
 
@@ -7,8 +7,6 @@ from PySide6.QtGui import QFontMetrics
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QToolButton, QWidget
 
 from . import theme
-from .elided_label import ElidedLabel
-from .number_box import NumberBox
 
 
 class Transport(QWidget):
@@ -18,7 +16,6 @@ class Transport(QWidget):
     stopped = Signal()
     to_start = Signal()
     loop_toggled = Signal(bool)
-    speed_changed = Signal(float)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -40,19 +37,6 @@ class Transport(QWidget):
         self.time.setToolTip(self.tr("Where the sentence is, and how long it is, in seconds"))
         self.time.setMinimumWidth(QFontMetrics(theme.mono_font()).horizontalAdvance("00.00 / 00.00 s") + 12)
 
-        self.speed = NumberBox(0.25, 1.0, 0.25, suffix=" ×")
-        self.speed.setValue(1.0)
-        self.speed.make_narrow()
-        self.speed.setAccessibleName(self.tr("Playback speed"))
-        self.speed.setToolTip(self.tr("Playback speed, 0.25× to 1×"))
-        self.speed.valueChanged.connect(self.speed_changed)
-
-        self._sound_sign = QLabel()
-        self._sound_sign.setFixedSize(16, 16)
-        self._sound = ElidedLabel(points=8.5)
-        self._sound_sign.hide()
-        self._sound.hide()
-
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(2)
@@ -60,13 +44,7 @@ class Transport(QWidget):
             row.addWidget(button)
         row.addSpacing(4)
         row.addWidget(self.time)
-        row.addSpacing(4)
-        row.addWidget(self.speed)
-        row.addSpacing(4)
-        row.addWidget(self._sound_sign)
-        row.addSpacing(2)
-        row.addWidget(self._sound)
-        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
+        self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         self._playing = False
         self.set_time(0.0, 0.0)
 
@@ -87,24 +65,6 @@ class Transport(QWidget):
     def set_loop(self, loop: bool) -> None:
         """Whether the sentence repeats; emits nothing."""
         self.loop_button.setChecked(loop)
-
-    def set_speed(self, speed: float) -> None:
-        """The playback speed; emits nothing."""
-        self.speed.show_value(speed)
-
-    def set_sound(self, state: str) -> None:
-        """What is wrong with the sound, "no audio device: playing silently"; "" when it works."""
-        self._sound.set_text(state)
-        self._sound.setVisible(bool(state))
-        self._sound_sign.setVisible(bool(state))
-        self._sound_sign.setToolTip(state)
-        if state and self._sound_sign.pixmap().isNull():
-            self._sound_sign.setPixmap(theme.icon("volume-off", theme.MUTED).pixmap(16, 16))
-
-    @property
-    def sound(self) -> str:
-        """The sound state shown."""
-        return self._sound.text
 
     def _button(self, icon: str, name: str) -> QToolButton:
         button = QToolButton()

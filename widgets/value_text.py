@@ -1,4 +1,4 @@
-"""What is typed into a field of values: “.3”, “=.3”, “*0.5”, “/2”, “+0.1”, “-0.1”, “50%”. No Qt."""
+"""What is typed into a field of values: “.3”, “=.3”, “*0.5”, “/2”, “+0.1”, “50%”, chains: “*0.5 -0.1”. No Qt."""
 
 from __future__ import annotations
 
@@ -8,39 +8,51 @@ from math import isfinite
 
 from .canvas.curve_geometry import Array
 
-_FORM = re.compile(r"\s*([=*/+\-−×]?)\s*([0-9]+(?:[.,][0-9]*)?|[.,][0-9]+)\s*(%?)\s*")
+_STEP = re.compile(r"\s*([=*/+\-−×]?)\s*([0-9]+(?:[.,][0-9]*)?|[.,][0-9]+)\s*(%?)\s*")
 
 
 @dataclass(frozen=True)
 class Typed:
-    """A change of numbers: `operator` is one of "=", "*", "+"; number is any finite one."""
+    """A change of numbers, step by step: each an operator, one of "=", "*", "+", and any finite number."""
 
-    operator: str
-    number: float
+    steps: tuple[tuple[str, float], ...]
 
     def of(self, values: Array) -> Array:
         """The values after it."""
-        if self.operator == "*":
-            return values * self.number
-        if self.operator == "+":
-            return values + self.number
-        return values * 0.0 + self.number
+        for operator, number in self.steps:
+            if operator == "*":
+                values = values * number
+            elif operator == "+":
+                values = values + number
+            else:
+                values = values * 0.0 + number
+        return values
 
 
 def parse_typed(text: str) -> Typed | None:
     """What a text asks for, None when it is none of these.
 
-    A plain number sets; “-0.1” takes away, because no time or weight is below 0.
+    A plain number sets; “-0.1” takes away, because no time or weight is below 0. Several in a row act one
+    after the other: “*0.5 +0.1”.
     """
-    match = _FORM.fullmatch(text)
-    if match is None:
-        return None
-    sign, digits, percent = match.groups()
+    steps: list[tuple[str, float]] = []
+    at = 0
+    while at < len(text) or not steps:
+        match = _STEP.match(text, at)
+        if match is None or (steps and not match[1]):
+            return None
+        step = _step(*match.groups())
+        if step is None:
+            return None
+        steps.append(step)
+        at = match.end()
+    return Typed(tuple(steps))
+
+
+def _step(sign: str, digits: str, percent: str) -> tuple[str, float] | None:
     number = float(digits.replace(",", ".")) / (100.0 if percent else 1.0)
     if sign == "/":
         sign, number = "*", 1.0 / number if number else float("inf")
     elif sign in ("-", "−"):
         sign, number = "+", -number
-    if not isfinite(number):
-        return None
-    return Typed({"": "=", "×": "*"}.get(sign, sign), number)
+    return ({"": "=", "×": "*"}.get(sign, sign), number) if isfinite(number) else None

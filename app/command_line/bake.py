@@ -10,7 +10,7 @@ from core_pipeline.errors import UserError
 from core_pipeline.files import schedule_json, stages_json, weights_files
 from core_pipeline.weights import bake as bake_weights
 
-from .steps import load_curves, save_sound, say, tell_missing
+from .steps import load_curves, load_model, save_sound, say, tell_missing
 
 #: Nine hours at 30 frames a second.
 MAX_FRAMES = 1_000_000
@@ -25,7 +25,7 @@ def bake(options: argparse.Namespace) -> int:
         raise UserError("Nothing to write: name a file with --out weights.json (or .csv), or with --stages.")
     if not 1 <= options.fps <= 1000:
         raise UserError(f"{options.fps:g} frames per second is not possible: choose 1 to 1000 for --fps.")
-    _refuse_same_file([options.curves, options.schedule], outputs)
+    _refuse_same_file([options.curves, options.schedule, options.method], outputs)
     curve_set = load_curves(options)
     settings = curve_set.effective_settings
     if options.spline:
@@ -42,8 +42,12 @@ def bake(options: argparse.Namespace) -> int:
             "choose a lower --fps or a shorter schedule."
         )
     stages = pipeline.run(schedule, curve_set, settings)
-    tell_missing(stages)
-    if options.out:
+    if options.method is None:
+        tell_missing(stages)
+    if options.out and options.method is not None:
+        model = load_model(options.method)
+        weights_files.save(model.synthesize(schedule, model.poses, options.fps), options.out)
+    elif options.out:
         weights_files.save(
             bake_weights(stages.magenta, settings.spline, options.fps, snap=not options.no_snap), options.out
         )

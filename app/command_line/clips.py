@@ -14,7 +14,7 @@ from core_pipeline.weights import bake as bake_weights
 
 from ..rigs import curves_of, face_path, open_rig
 from .progress import Progress
-from .steps import load_curves, make_folder, save_sound, say, tell, tell_missing
+from .steps import load_curves, load_model, make_folder, save_sound, say, tell, tell_missing
 
 if TYPE_CHECKING:
     from .frames import FaceFrames
@@ -35,8 +35,11 @@ def render(options: argparse.Namespace) -> int:
     curve_set = load_curves(options, curves_of(face))
     utterance = say(options.text, options.voice)
     stages = pipeline.run(utterance.schedule, curve_set)
-    tell_missing(stages)
+    if options.method is None:
+        tell_missing(stages)
     weights = bake_weights(stages.magenta, curve_set.effective_settings.spline, options.fps)
+    if options.method is not None:
+        weights = load_model(options.method).synthesize(utterance.schedule, stages.poses, options.fps)
     opened = open_rig(face, stages.poses)
     for line in opened.notes if options.face else ():
         tell(line)

@@ -9,6 +9,8 @@ from typing import NoReturn
 from core_pipeline.errors import UserError
 from core_pipeline.settings import PRESETS, SPLINES
 
+from . import curve_sets_parser, curve_work_parser, methods_parser
+
 _FACE = "toon, ada, man, woman, crab; or a .glb, .gltf or .vrm; or a folder of .obj poses"
 
 
@@ -56,14 +58,14 @@ def make_parser() -> Parser:
     bake.add_argument("--sound", type=Path, metavar="FILE", help="the sound of the sentence, .wav")
     bake.add_argument("--spline", choices=SPLINES, help="final spline (default: the curve set's own)")
     bake.add_argument("--fps", type=float, default=60, metavar="N", help="frames per second, 1 to 1000 (default 60)")
+    bake.add_argument("--method", type=Path, metavar="FILE", help="a learned model, .npz, in place of the curves")
     bake.add_argument("--no-snap", action="store_true", help="do not put each peak on its nearest frame")
 
-    check = command(
-        "check",
-        "validate a curve set: exit code 0 when it is good, 1 with a line per problem",
-        "lipstitch check my-curves.json",
-    )
-    check.add_argument("file", type=Path, metavar="FILE", help="a curve set, .json")
+    curve_work_parser.add(command)
+
+    curve_sets_parser.add(command)
+
+    methods_parser.add(command)
 
     render = command(
         "render",
@@ -77,6 +79,7 @@ def make_parser() -> Parser:
     render.add_argument("--fps", type=float, default=30, metavar="N", help="frames per second, 1 to 240 (default 30)")
     render.add_argument("--size", type=_size, default=(512, 512), metavar="WxH", help="pixels (default 512x512)")
     render.add_argument("--face", metavar="FACE", help=_FACE)
+    render.add_argument("--method", type=Path, metavar="FILE", help="a learned model, .npz, in place of the curves")
     render.add_argument("--still", action="store_true", help="keep eyes and brows still: no blinking")
 
     face = command("face", "say what a face is made of and which poses it can make", "lipstitch face head.glb")

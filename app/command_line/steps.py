@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from core_pipeline.curve_set import CurveSet
 from core_pipeline.errors import UserError
@@ -16,6 +17,9 @@ from core_pipeline.settings import PRESETS
 from core_pipeline.speech.speaker import speak
 from core_pipeline.speech.utterance import Utterance
 from core_pipeline.speech.wav import write_wav
+
+if TYPE_CHECKING:
+    from core_pipeline.methods.method import Method
 
 from .. import resources
 
@@ -35,6 +39,13 @@ def load_curves(options: argparse.Namespace, usual: Path | None = None) -> Curve
         tell(f"{path} was written by a newer Lipstitch; this one may misread it.")
     curve_set = reading.curve_set
     return curve_set.with_settings(PRESETS[options.preset]) if options.preset else curve_set
+
+
+def load_model(path: Path) -> Method:
+    """A learned model, .npz; UserError when it is none."""
+    from core_pipeline.files import model_npz
+
+    return model_npz.load(path)
 
 
 def say(text: str, voice: str) -> Utterance:

@@ -1,35 +1,49 @@
 """The only place, with its neighbours, where wishes become commands and values reach the views.
 
-open_bigram.py has the canvas and what belongs to it, sentence.py the sentence and its transport,
-character.py the face, mapping.py what makes its poses; here is the rest: the document's news, the pipeline's
-results, settings, search, menus.
+open_bigram.py has the canvas and what belongs to it, sentence.py the sentence and its transport, character.py the
+face, company.py those beside it, face_picker.py their choice, looks.py light and camera, mapping.py what makes a
+face's poses, palette.py the command palette, keys.py keymaps and shortcuts; here is the rest: the document's news,
+the pipeline's results, settings, search, menus.
 """
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtCore import QObject, QTimer
+from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QMessageBox
 
-from core_pipeline.diagnose import Weakness, weak_bigrams
 from core_pipeline.errors import UserError
+from core_pipeline.phone_classes import by_class, by_frequency
 from core_pipeline.phonemes import SILENCE, Pair, pair_name
 from core_pipeline.pipeline import Stages
 from core_pipeline.poses import MEANING
 from core_pipeline.settings import Settings
 from core_pipeline.speech.utterance import Utterance
-from widgets.picker.weak_list import WeakRow
 
+from ..exchange import Exchange
 from ..preview import BIGRAM_SECONDS
+from .before_after import BeforeAfter
+from .beside import Beside
+from .carrier import Carrier
 from .character import Character
+from .compare import Compare
+from .face_picker import FacePicking
+from .keys import KeysOfWindow
+from .layouts import Layouts
+from .looks import Looks
 from .mapping import Mapping
 from .open_bigram import OpenBigram
+from .palette import Palette
 from .parts import Parts
-from .sentence import RATE, VOICE, Sentence
-
-#: What may lag a moment behind a drag does so for this long.
-LATE_MS = 120
+from .queue import Queue
+from .sentence import RATE, Sentence
+from .sentences import Sentences
+from .statistics import Statistics
+from .suggesting import Suggesting
+from .tabs import Tabs
+from .time_spent import TimeSpent
+from .weak import Weak
 
 
 class Wiring(QObject):
@@ -45,15 +59,29 @@ class Wiring(QObject):
         self._state = parts.state
         self._search = parts.search
         self._statuses: dict[Pair, str] = {}
-        self._late = QTimer(self)
-        self._late.setSingleShot(True)
-        self._late.setInterval(LATE_MS)
-        self._late.timeout.connect(self._show_weak)
+        self.exchange = Exchange(parts.files, parts.session)
         self.bigram = OpenBigram(parts, self)
+        self.tabs = Tabs(parts, self.bigram, self)
         self.sentence = Sentence(parts, self)
+        self.sentences = Sentences(parts, self.sentence, self)
         self.character = Character(parts, self)
+        self.picking = FacePicking(parts, self.character, self)
+        self.looks = Looks(parts, self)
         self.mapping = Mapping(parts, self)
+        self.weak = Weak(parts, self.bigram, self.sentence, self)
+        self.suggesting = Suggesting(parts, self.bigram, self.weak, self)
+        self.carrier = Carrier(parts, self.sentence, self)
+        self.queue = Queue(parts, self.bigram, self.weak, self.carrier, self)
+        self.time_spent = TimeSpent(parts, self.bigram, self)
+        self.compare = Compare(parts, self.bigram, self)
+        self.statistics = Statistics(parts, self.queue, self)
+        self.palette = Palette(parts, self.bigram, self.sentence, self)
+        self.keys = KeysOfWindow(parts, self)
+        self.layouts = Layouts(parts, self.keys.shortcuts, self)
+        self.before_after = BeforeAfter(parts, self)
+        self.bigram.opened.connect(self.before_after.forget)
         self._connect_document()
+        self.beside = Beside(parts, self.bigram, self)  # after: it follows what the document has told the canvas
         self._connect_views()
         self._connect_menu()
         self._set_replaced()
@@ -66,11 +94,13 @@ class Wiring(QObject):
 
     def _connect_document(self) -> None:
         self._document.bigram_changed.connect(self._bigram_changed)
+        self._document.bigrams_changed.connect(self._bigrams_changed)
         self._document.settings_changed.connect(self._settings_changed)
         self._document.replaced.connect(self._set_replaced)
         self._document.file_changed.connect(self._show_file)
         self._session.stages_changed.connect(self._stages_changed)
         self._files.autosave.failed.connect(self._window.hint_label.setText)
+        self._files.keeper.failed.connect(self._window.hint_label.setText)
         self._files.autosave.saved.connect(self._show_saved)
 
     def _connect_views(self) -> None:
@@ -79,11 +109,14 @@ class Wiring(QObject):
         w.canvas.hint_changed.connect(w.hint_label.setText)
         w.canvas.play_wanted.connect(preview.toggle_bigram)
         w.header.snap_toggled.connect(w.canvas.set_snap)
-        w.header.frame_all_wanted.connect(w.canvas.frame_all)
+        w.header.polygon_toggled.connect(w.canvas.set_polygon)
+        w.header.action_wanted.connect(w.canvas.act)
+        w.canvas.keys_changed.connect(w.header.set_keys)
+        w.header.set_keys(w.canvas.keys)
         w.bigram_transport.play_toggled.connect(preview.toggle_bigram)
         w.bigram_transport.length_changed.connect(preview.set_bigram_length)
         w.settings_panel.settings_changed.connect(self._settings_wanted)
-        w.picker.search_wanted.connect(lambda text: self._search.request(text, VOICE, RATE))
+        w.picker.search_wanted.connect(lambda text: self._search.request(text, self.sentence.voice, RATE))
         self._search.spoken.connect(self._word_found)
         self._search.failed.connect(self._word_not_found)
         preview.bigram_player.playing_changed.connect(w.bigram_transport.set_playing)
@@ -99,21 +132,26 @@ class Wiring(QObject):
             (a.open, self._files.ask_open),
             (a.save, self._files.save),
             (a.save_as, self._files.ask_save_as),
-            (a.export, self._files.ask_export),
-            (a.export_weights, self._files.ask_export_weights),
+            (a.new_on_base, self.exchange.ask_new_on_base),
+            (a.import_script, self.exchange.ask_import),
+            (a.restore, self._files.ask_restore),
+            (a.export, self.exchange.ask_export),
+            (a.export_weights, self.exchange.ask_export_weights),
             (a.quit, w.close),
             (a.find, w.picker.search.setFocus),
             (a.sentence, w.sentence_bar.field.setFocus),
+            (a.swapped, self.bigram.open_swapped),
+            (a.next_bigram, self.bigram.open_next),
+            (a.previous_bigram, lambda: self.bigram.open_next(-1)),
             (a.play, self._preview.toggle_sentence),
             (a.play_bigram, self._preview.toggle_bigram),
             (a.to_start, self.sentence.to_start),
-            (a.reset_view, self._preview.reset_view),
-            (a.default_layout, w.default_layout),
+            (a.next_part, w.focus_ring.go),
+            (a.previous_part, lambda: w.focus_ring.go(-1)),
             (a.about, self._about),
         ):
             action.triggered.connect(lambda _=False, act=act: act())
         a.loop.toggled.connect(self.sentence.set_loop)
-        a.keymaps.triggered.connect(lambda action: w.canvas.set_keymap(action.data()))
         a.safe_colours.toggled.connect(w.stage_panel.set_palette_safe)
         w.play_wanted.connect(self._preview.toggle_sentence)
         w.dropped.connect(self._open_dropped)
@@ -123,7 +161,13 @@ class Wiring(QObject):
 
     def _set_replaced(self) -> None:
         curve_set, w = self._document.curve_set, self._window
-        w.picker.set_phonemes(curve_set.phonemes)
+        w.picker.set_orders(
+            {
+                self.tr("As in the set"): curve_set.phonemes,
+                self.tr("By class"): by_class(curve_set.phonemes),
+                self.tr("By frequency"): by_frequency(curve_set.phonemes),
+            }
+        )
         w.pose_list.set_poses(curve_set.poses, {p: MEANING[p] for p in curve_set.poses if p in MEANING})
         w.canvas.set_poses(curve_set.poses)
         w.weights.set_poses(curve_set.poses)
@@ -141,8 +185,15 @@ class Wiring(QObject):
         self._show_statuses()
         if pair == self.bigram.pair:
             self.bigram.show_curves()
-        else:
+        elif pair != self.beside.pair:
             self.bigram.open(pair)  # undo reached another bigram: show what it did
+
+    def _bigrams_changed(self) -> None:
+        curve_set = self._document.curve_set
+        self._session.set_curve_set(curve_set)
+        self._statuses = {pair: curve_set.status_of(pair) for pair in self._statuses}
+        self._show_statuses()
+        self.bigram.show_curves()
 
     def _settings_changed(self) -> None:
         self._session.set_curve_set(self._document.curve_set)
@@ -162,10 +213,7 @@ class Wiring(QObject):
         self._window.canvas.set_spline(settings.spline)
 
     def _show_statuses(self) -> None:
-        total = len(self._document.curve_set.phonemes) ** 2
-        drawn = sum(status != "empty" for pair, status in self._statuses.items() if SILENCE not in pair)
         self._window.picker.set_statuses(self._statuses)
-        self._window.picker.set_coverage(self.tr("{0} of {1} bigrams").format(drawn, total), drawn / max(total, 1))
 
     def _show_file(self) -> None:
         document, w = self._document, self._window
@@ -190,8 +238,6 @@ class Wiring(QObject):
         w.stage_panel.set_stages(stages)
         w.stage_panel.set_source_phones(utterance.schedule.phones if utterance is not None else None)
         self.bigram.show_place()
-        if not self._late.isActive():
-            self._late.start()
         if stages is None:
             w.timing_label.setText("")
             w.missing_label.setText("")
@@ -200,22 +246,6 @@ class Wiring(QObject):
         names = ", ".join(pair_name(pair) for pair in stages.missing)
         w.missing_label.setText(self.tr("{0} missing").format(len(stages.missing)) if names else "")
         w.missing_label.setToolTip(names)
-
-    def _show_weak(self) -> None:
-        w, stages = self._window, self._session.stages
-        weak = weak_bigrams(stages, self._session.curve_set) if stages is not None else []
-        w.weak_list.set_rows([WeakRow(x.pair, self._why(x), x.time, x.uses, x.severity > 0.2) for x in weak])
-        w.picker.set_weak({x.pair: self._why(x) for x in weak if x.severity > 0.2})
-        w.picker.set_used(self._session.used())
-
-    def _why(self, weakness: Weakness) -> str:
-        if weakness.kind == "slowed":
-            return self.tr("{0}: {1} % lost to the speed limit").format(weakness.pose, round(100 * weakness.amount))
-        return {
-            "missing": self.tr("missing"),
-            "flat": self.tr("no curve rises"),
-            "unreviewed": self.tr("not reviewed yet"),
-        }[weakness.kind]
 
     def _sentence_moment(self, seconds: float) -> None:
         w = self._window
@@ -238,8 +268,10 @@ class Wiring(QObject):
     # ── the window ───────────────────────────────────────────────────────────────────────────────
 
     def _open_dropped(self, path: Path) -> None:
-        """A curve set, or else a face."""
-        if path.suffix.lower() != ".json":
+        """A curve set, a diphone script, or else a face."""
+        if path.suffix.lower() == ".py":
+            self.exchange.import_script(path)
+        elif path.suffix.lower() != ".json":
             self.character.open(path)
         elif self._files.may_discard():
             self._files.open(path)
@@ -265,26 +297,32 @@ class Wiring(QObject):
         """Bring back last time's layout."""
         state, w = self._state, self._window
         w.restore_layout(state.layout("geometry"), state.layout("docks"))
+        w.picker.set_order(state.text("order of phones"))
         w.actions_.safe_colours.setChecked(state.flag("safe colours", False))
-        for action in w.actions_.keymaps.actions():
-            if action.data() == state.text("keymap", "neutral"):
-                action.trigger()
+        self.keys.restore()
+        self.looks.restore()
         self.character.restore()
         self.sentence.set_loop(state.flag("loop", True))
-        w.transport.set_speed(state.number("speed", 1.0))
+        w.voice_bar.set_speed(state.number("speed", 1.0))
         self._preview.player.set_speed(state.number("speed", 1.0))
+        self.sentence.set_voice(state.text("voice"))
 
     def remember(self) -> None:
         """Keep this time's layout."""
         state, w, player = self._state, self._window, self._preview.player
         self.character.remember()
+        self.looks.remember()
+        self.picking.close()
         self.mapping.close()
+        self.sentences.remember()
         state.put("geometry", w.saveGeometry())
         state.put("docks", w.saveState())
+        state.put("order of phones", w.picker.order_name)
         state.put("sentence", w.sentence_bar.sentence)
-        keymap = w.actions_.keymaps.checkedAction()
-        state.put("keymap", keymap.data() if keymap is not None else "neutral")
         state.put("safe colours", w.actions_.safe_colours.isChecked())
         state.put("loop", player.looping)
         state.put("speed", player.speed)
-        self._late.stop()
+        state.put("voice", self.sentence.voice)
+        self.weak.close()
+        self.carrier.close()
+        self.time_spent.close()

@@ -17,7 +17,7 @@ def _lines(text: str) -> dict[str, tuple[str, ...]]:
 
 
 #: Spelling → phones; the longest that fits is taken.
-_RULES = _lines("""
+RULES = _lines("""
 tion sh ah n|sion zh ah n|ture ch er|ough ao|augh ao|eigh ey|igh ay|tch ch|dge jh|sch s k|chr k r|ch ch|sh sh
 th th|ph f|wh w|gh g|ck k|ng ng|nk ng k|qu k w|kn n|wr r|mb m|ps p s|rh r|sc s k|ss s|ll l|ff f|tt t|pp p|bb b
 dd d|gg g|mm m|nn n|rr r|zz z|cc k|air eh r|are eh r|ear ih r|eer ih r|oor ao r|our aw er|oar ao r|ore ao r
@@ -25,7 +25,7 @@ ar aa r|er er|ir er|ur er|or ao r|ai ey|ay ey|ee iy|ea iy|ei iy|ey iy|ie iy|eu y
 oy oy|oo uw|ou aw|ow ow|au ao|aw ao|ue uw|ui uw|ce s ah|ci s ih|cy s iy|ge jh ah|gi jh ih|gy jh iy
 a ae|b b|c k|d d|e eh|f f|g g|h h|i ih|j jh|k k|l l|m m|n n|o aa|p p|q k|r r|s s|t t|u ah|v v|w w|x k s|y iy|z z
 """)
-_LONGEST = max(map(len, _RULES))
+_LONGEST = max(map(len, RULES))
 
 #: How a letter is spelt aloud.
 _SPELT = _lines("""
@@ -67,7 +67,7 @@ def sound_out(word: str) -> tuple[str, ...]:
             phones.append("y")
             i += 1
             continue
-        size = next(n for n in range(_LONGEST, 0, -1) if rest[:n] in _RULES)
-        phones += _RULES[rest[:size]]
+        size = next(n for n in range(_LONGEST, 0, -1) if rest[:n] in RULES)
+        phones += RULES[rest[:size]]
         i += size
     return tuple(phones)

@@ -1,9 +1,8 @@
 """The playing controls: wishes go up, values come down."""
 
 import pytest
-from PySide6.QtCore import QPoint, QPointF, Qt
-from PySide6.QtGui import QWheelEvent
-from PySide6.QtWidgets import QApplication, QToolButton
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QToolButton
 
 from widgets.transport import Transport
 
@@ -23,7 +22,7 @@ def transport(qtbot):
 @pytest.fixture
 def wishes(transport):
     seen = []
-    for name in ("play_toggled", "stopped", "to_start", "loop_toggled", "speed_changed"):
+    for name in ("play_toggled", "stopped", "to_start", "loop_toggled"):
         getattr(transport, name).connect(lambda *values, name=name: seen.append((name, *values)))
     return seen
 
@@ -61,11 +60,8 @@ def test_values_from_outside_emit_nothing(transport, wishes):
     transport.set_playing(True)
     transport.set_time(3.42, 10)
     transport.set_loop(True)
-    transport.set_speed(0.5)
-    transport.set_sound("no audio device: playing silently")
     assert wishes == []
     assert transport.loop_button.isChecked()
-    assert transport.speed.value() == 0.5
 
 
 def test_the_time_does_not_dance(transport):
@@ -77,61 +73,7 @@ def test_the_time_does_not_dance(transport):
     assert transport.time.sizeHint().width() <= transport.time.minimumWidth()
 
 
-def test_the_speed_box_steps_and_takes_typed_values(qtbot, transport, wishes):
-    qtbot.keyClick(transport.speed, Qt.Key.Key_Down)
-    assert wishes == [("speed_changed", 0.75)]
-    transport.speed.selectAll()
-    qtbot.keyClicks(transport.speed, "0.4")
-    assert len(wishes) == 1
-    qtbot.keyClick(transport.speed, Qt.Key.Key_Return)
-    assert wishes[1:] == [("speed_changed", 0.4)]
-    transport.speed.setValue(7)
-    assert transport.speed.value() == 1.0
-
-
-def test_the_wheel_over_an_unfocused_box_changes_nothing(qtbot, transport, wishes):
-    transport.play_button.setFocus()
-    turn(transport.speed)
-    assert transport.speed.value() == 1.0
-    transport.speed.setFocus()
-    turn(transport.speed)
-    assert wishes == [("speed_changed", 0.75)]
-
-
-def turn(box):
-    """One notch towards the user."""
-    at = QPointF(box.rect().center())
-    event = QWheelEvent(
-        at,
-        QPointF(box.mapToGlobal(at.toPoint())),
-        QPoint(),
-        QPoint(0, -120),
-        Qt.MouseButton.NoButton,
-        Qt.KeyboardModifier.NoModifier,
-        Qt.ScrollPhase.NoScrollPhase,
-        False,
-    )
-    QApplication.sendEvent(box, event)
-
-
-def test_the_sound_state_appears_only_when_there_is_one(transport):
-    assert not transport._sound.isVisible()
-    transport.set_sound("no audio device: playing silently")
-    assert transport._sound.isVisible()
-    assert transport.sound == transport._sound.toolTip() == "no audio device: playing silently"
-    transport.set_sound("")
-    assert not transport._sound.isVisible()
-
-
-def test_it_shrinks_without_clipping_the_time(qtbot, transport):
-    transport.set_sound("no audio device: playing silently")
-    transport.resize(transport.minimumSizeHint())
-    QApplication.processEvents()
-    assert transport.time.width() >= transport.time.sizeHint().width()
-    assert transport._sound.width() < transport._sound.sizeHint().width()
-
-
 def test_everything_is_named(transport):
-    for control in (*transport.findChildren(QToolButton), transport.speed, transport.time):
+    for control in (*transport.findChildren(QToolButton), transport.time):
         assert control.accessibleName()
         assert control.toolTip()

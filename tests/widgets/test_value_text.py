@@ -22,12 +22,19 @@ from widgets.value_text import parse_typed
         ("-.1", [0.1, 0.7]),
         ("−0.1", [0.1, 0.7]),
         ("1.", [1, 1]),
+        ("*0.5 +0.1", [0.2, 0.5]),
+        ("*2-.1", [0.3, 1.5]),
+        (".5 *50% /2", [0.125, 0.125]),
+        ("+0.1=.3", [0.3, 0.3]),
     ],
 )
-def test_a_number_sets_and_an_operator_acts_on_each(text, result):
+def test_a_number_sets_an_operator_acts_on_each_and_several_act_in_turn(text, result):
     np.testing.assert_allclose(parse_typed(text).of(np.array([0.2, 0.8])), result)
 
 
-@pytest.mark.parametrize("text", ["", " ", "x", "*", "/0", "1e999", "nan", "inf", "0.1.2", "++1", "0.3 0.4", "9" * 400])
+NO_VALUES = ("", " ", "x", "*", "/0", "1e999", "nan", "inf", "0.1.2", "++1", "0.3 0.4", "9" * 400)
+
+
+@pytest.mark.parametrize("text", [*NO_VALUES, "*2 0.4", "*2 +", "*2 +x", "*2 /0"])
 def test_anything_else_is_no_value(text):
     assert parse_typed(text) is None

@@ -12,9 +12,12 @@ from .. import theme
 
 STEPS = 100
 
+_Key = Qt.Key
+_FOR_THE_BAR = (_Key.Key_Return, _Key.Key_Enter, _Key.Key_Escape, _Key.Key_Space, _Key.Key_Up, _Key.Key_Down)
+
 
 class _Slider(QSlider):
-    """A slider that says when the keyboard has gone elsewhere, and leaves Enter and Esc to its bar."""
+    """A slider that says when the keyboard has gone elsewhere, and leaves Enter, Esc, Up and Down to its bar."""
 
     left = Signal()
 
@@ -24,14 +27,16 @@ class _Slider(QSlider):
             self.left.emit()
 
     def keyPressEvent(self, ev: QKeyEvent) -> None:
-        if ev.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_Escape, Qt.Key.Key_Space):
+        if ev.key() in _FOR_THE_BAR:
             ev.ignore()
         else:
             super().keyPressEvent(ev)
 
 
 class BlendBar(QFrame):
-    """“now ———●——— [previous version]”: moved by mouse or arrows; let go or Enter keeps, Esc takes back.
+    """“now ———●——— [previous version]”: moved by mouse or left and right; let go or Enter keeps, Esc takes back.
+
+    Up and down go through the other versions at the same share.
 
     Nothing is kept by itself: the owner blends and closes.
     """
@@ -74,28 +79,43 @@ class BlendBar(QFrame):
         self.targets.textActivated.connect(self.target_picked)
         self.hide()
 
-    def begin(self, names: Sequence[str], name: str) -> None:
-        """Shows the bar at "now" with these other versions to choose from."""
+    def begin(self, names: Sequence[str], name: str, share: float = 0.0) -> None:
+        """Shows the bar at `share` of the way with these other versions to choose from."""
         if [self.targets.itemText(i) for i in range(self.targets.count())] != list(names):
             self.targets.clear()
             self.targets.addItems(list(names))
         self.targets.setCurrentText(name)
         with QSignalBlocker(self.slider):
-            self.slider.setValue(0)
-        self.share.setText("0 %")
+            self.slider.setValue(round(share * STEPS))
+        self._show_share()
         self.show()
         self.raise_()
         self.slider.setFocus(Qt.FocusReason.PopupFocusReason)
 
+    @property
+    def share_value(self) -> float:
+        """How far the slider stands towards the other version, 0 to 1."""
+        return self.slider.value() / STEPS
+
+    def step_target(self, step: int) -> None:
+        """Picks the next other version, or the previous one with step −1."""
+        self.targets.setCurrentIndex((self.targets.currentIndex() + step) % max(self.targets.count(), 1))
+        self.target_picked.emit(self.targets.currentText())
+
+    def _show_share(self) -> None:
+        self.share.setText(f"{100 * self.slider.value() // STEPS} %")
+
     def _slid(self, value: int) -> None:
-        self.share.setText(f"{100 * value // STEPS} %")
+        self._show_share()
         self.moved.emit(value / STEPS)
 
     def keyPressEvent(self, ev: QKeyEvent) -> None:
-        """Enter keeps, Esc takes back."""
-        if ev.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+        """Enter keeps, Esc takes back, Up and Down go to another version."""
+        if ev.key() in (_Key.Key_Return, _Key.Key_Enter):
             self.kept.emit()
-        elif ev.key() == Qt.Key.Key_Escape:
+        elif ev.key() == _Key.Key_Escape:
             self.taken_back.emit()
+        elif ev.key() in (_Key.Key_Up, _Key.Key_Down):
+            self.step_target(1 if ev.key() == _Key.Key_Down else -1)
         else:
             super().keyPressEvent(ev)

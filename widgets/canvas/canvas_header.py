@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from html import escape
 
-from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtCore import QT_TRANSLATE_NOOP, QSize, Qt, Signal, SignalInstance
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QToolButton, QWidget
 
@@ -12,15 +13,32 @@ from .. import theme
 
 _GAP = "\u2002·\u2002"
 
+#: Pixels from which on every button is shown.
+ROOMY = 560
+
+_ACTIONS = (
+    ("frame_all", "arrow-expand-all", QT_TRANSLATE_NOOP("CanvasHeader", "Frame all")),
+    ("reverse", "flip-horizontal", QT_TRANSLATE_NOOP("CanvasHeader", "Reverse in time")),
+    ("mirror", "flip-vertical", QT_TRANSLATE_NOOP("CanvasHeader", "Mirror values")),
+    ("copy", "content-copy", QT_TRANSLATE_NOOP("CanvasHeader", "Copy keys, or the active curve")),
+    ("paste", "content-paste", QT_TRANSLATE_NOOP("CanvasHeader", "Paste")),
+    ("duplicate", "content-duplicate", QT_TRANSLATE_NOOP("CanvasHeader", "Duplicate from a similar bigram")),
+    ("slide", "compare-horizontal", QT_TRANSLATE_NOOP("CanvasHeader", "Slide to another version")),
+)
+_SPARE = ("reverse", "mirror", "copy", "paste", "duplicate", "slide")
+
 
 class CanvasHeader(QWidget):
-    """“F – Ah  as in “fat” · used 2× in this sentence · draft”, a snap switch and a button to frame all.
+    """“F – Ah  as in “fat” · used 2× in this sentence · draft”, two switches, and buttons for what keys do too.
 
-    Where there is no room the example goes first, then the use; the tooltip always has the whole line.
+    Where there is no room some buttons go first, then words, the example, the use; the tooltip always has the
+    whole line.
     """
 
     snap_toggled = Signal(bool)
-    frame_all_wanted = Signal()
+    polygon_toggled = Signal(bool)
+    #: One of the canvas' actions, as keymaps name them.
+    action_wanted = Signal(str)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -28,6 +46,7 @@ class CanvasHeader(QWidget):
         self._word, self._span = "", (0, 0)
         self._used: int | None = None
         self._status = ""
+        self._spent = ""
         self._title = QLabel()
         self._title.setFont(theme.font(15, bold=True))
         self._title.setAccessibleName(self.tr("Open bigram"))
@@ -38,20 +57,30 @@ class CanvasHeader(QWidget):
         palette = self._detail.palette()
         palette.setColor(palette.ColorRole.WindowText, theme.MUTED)
         self._detail.setPalette(palette)
-        self._snap = self._button("magnet", self.tr("Snap to the grid; Ctrl while dragging does the opposite"))
-        self._snap.setCheckable(True)
-        self._snap.setAccessibleName(self.tr("Snap to the grid"))
-        self._snap.clicked.connect(self.snap_toggled)
-        self._frame = self._button("arrow-expand-all", self.tr("Frame all (Home)"))
-        self._frame.clicked.connect(self.frame_all_wanted)
+        self._snap = self._switch("magnet", self.tr("Snap to the grid"), self.snap_toggled)
+        self._snap.setToolTip(self.tr("Snap to the grid; Ctrl while dragging does the opposite"))
+        self._polygon = self._switch(
+            "vector-polyline", self.tr("Show the straight lines between keys"), self.polygon_toggled
+        )
+        self._polygon.setChecked(True)
+        self._actions: dict[str, QToolButton] = {}
+        for action, icon, tip in _ACTIONS:
+            button = self._actions[action] = self._button(icon, self.tr(tip))
+            button.clicked.connect(lambda _=False, action=action: self.action_wanted.emit(action))
         layout = self._layout = QHBoxLayout(self)
         layout.setContentsMargins(12, 5, 8, 5)
-        layout.setSpacing(4)
+        layout.setSpacing(2)
         layout.addWidget(self._title)
         layout.addSpacing(8)
         layout.addWidget(self._detail, 1)
-        layout.addWidget(self._snap)
-        layout.addWidget(self._frame)
+        for button in self.buttons:
+            layout.addWidget(button)
+
+    def _switch(self, icon: str, name: str, toggled: SignalInstance) -> QToolButton:
+        button = self._button(icon, name)
+        button.setCheckable(True)
+        button.clicked.connect(toggled)
+        return button
 
     def _button(self, icon: str, tip: str) -> QToolButton:
         button = QToolButton()
@@ -69,17 +98,25 @@ class CanvasHeader(QWidget):
 
     def set_example(self, word: str, span: tuple[int, int] = (0, 0)) -> None:
         """A word with this bigram, "" for none; the letters from span[0] to before span[1] are highlighted."""
-        self._word, self._span = word, span
-        self._show()
+        if (word, span) != (self._word, self._span):
+            self._word, self._span = word, span
+            self._show()
 
     def set_usage(self, count: int | None) -> None:
         """How often the sentence uses the bigram; None when there is no sentence."""
-        self._used = count
-        self._show()
+        if count != self._used:
+            self._used = count
+            self._show()
 
     def set_status(self, status: str) -> None:
         """How far the work has come, as a word to show."""
-        self._status = status
+        if status != self._status:
+            self._status = status
+            self._show()
+
+    def set_time_spent(self, text: str) -> None:
+        """How long the user has worked on the bigram, shown where there is room for it."""
+        self._spent = text
         self._show()
 
     def set_snap(self, on: bool) -> None:
@@ -99,14 +136,26 @@ class CanvasHeader(QWidget):
     @property
     def buttons(self) -> tuple[QToolButton, ...]:
         """The switches, from the left."""
-        return self._snap, self._frame
+        return self._snap, self._polygon, *self._actions.values()
+
+    def button_of(self, action: str) -> QToolButton:
+        """The button of one of the canvas' actions; KeyError when it has none."""
+        return self._actions[action]
+
+    def set_keys(self, keys: Mapping[str, str]) -> None:
+        """Action → its key in the present keymap, for tooltips."""
+        for action, _, tip in _ACTIONS:
+            key = f" ({keys[action]})" if keys.get(action) else ""
+            self._actions[action].setToolTip(self.tr(tip) + key)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Fits the line."""
         super().resizeEvent(event)
+        for action in _SPARE:
+            self._actions[action].setVisible(event.size().width() >= ROOMY)
         self._show()
 
-    def _parts(self) -> list[tuple[str, str]]:
+    def _parts(self, *, short: bool = False) -> list[tuple[str, str]]:
         """(plain, rich) text of each part that has something to say: example, use, status."""
         parts = []
         if self._word:
@@ -116,20 +165,28 @@ class CanvasHeader(QWidget):
             frame = self.tr("as in “{0}”")
             parts.append((frame.format(self._word), frame.format(marked)))
         if self._used is not None:
-            used = self.tr("used {0}× in this sentence").format(self._used)
-            used = used if self._used else self.tr("not in this sentence")
+            used = self.tr("used {0}×") if short else self.tr("used {0}× in this sentence")
+            used = used.format(self._used) if self._used else self.tr("not in this sentence")
             parts.append((used, escape(used)))
         if self._status:
             parts.append((self._status, escape(self._status)))
         return parts
 
     def _show(self) -> None:
-        parts = self._parts()
         self.setToolTip(self.text)
         self._detail.setAccessibleDescription(self.text)
         self._layout.activate()
         room = self._detail.width() - 8
-        metrics = self._detail.fontMetrics()
-        while parts and metrics.horizontalAdvance(_GAP.join(plain for plain, _ in parts)) > room:
+        parts = self._parts()
+        if self._length(parts) > room:
+            parts = self._parts(short=True)
+        spent = (self._spent, f'<span style="color:{theme.FAINT.name()}">{escape(self._spent)}</span>')
+        if self._spent and self._length([*parts, spent]) <= room:
+            parts.append(spent)
+        while parts and self._length(parts) > room:
             parts.pop(0)
         self._detail.setText(_GAP.join(rich for _, rich in parts))
+
+    def _length(self, parts: Sequence[tuple[str, str]]) -> int:
+        """Pixels of the line."""
+        return self._detail.fontMetrics().horizontalAdvance(_GAP.join(plain for plain, _ in parts))

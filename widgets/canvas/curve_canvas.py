@@ -43,6 +43,8 @@ class CurveCanvas(CurveCompare):
     play_wanted = Signal()
     #: These poses alone are to be shown, none: all again. frozenset of poses.
     solo_wanted = Signal(object)
+    #: Another keymap: dict action → its first key, as this system writes it.
+    keys_changed = Signal(object)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -51,12 +53,14 @@ class CurveCanvas(CurveCompare):
             "add": self.add_key,
             "delete": self.delete_selection,
             "reverse": self.reverse,
+            "mirror": self.mirror,
             "copy": self.copy,
             "cut": self.cut,
             "paste": self.paste,
             "paste_reversed": lambda: self.paste(backwards=True),
             "swap": self.swap,
             "slide": self.slide,
+            "duplicate": self.duplicate,
             "select_all": self.select_all,
             "select_none": lambda: self.select(()),
             "previous_key": lambda: self.select_next(-1),
@@ -118,6 +122,7 @@ class CurveCanvas(CurveCompare):
     def set_keymap(self, name: str = NEUTRAL) -> None:
         """Which keys do what: one of keymaps.KEYMAPS (KeyError otherwise)."""
         self._keymap = KEYMAPS[name]
+        self.keys_changed.emit(self.keys)
         self._tell()
 
     # What is shown, for the owner and for tests
@@ -138,6 +143,11 @@ class CurveCanvas(CurveCompare):
         return self._control.selection
 
     @property
+    def keys(self) -> dict[str, str]:
+        """Action → its first key in the present keymap, as this system writes it."""
+        return {action: key_name(names[0]) for action, names in self._keymap.items()}
+
+    @property
     def editable(self) -> bool:
         """Whether the active pose can be edited now."""
         return self._control.refuses(self._control.active) is None
@@ -149,6 +159,10 @@ class CurveCanvas(CurveCompare):
             self._tell()
 
     # Single actions, also for menus
+
+    def act(self, action: str) -> None:
+        """Does what the key of a keymap's action does; KeyError when there is no such action."""
+        self._acts[action]()
 
     def select_all(self) -> None:
         """All keys of the active curve; once more: of every curve."""
@@ -183,6 +197,10 @@ class CurveCanvas(CurveCompare):
     def reverse(self) -> None:
         """Wishes the selection mirrored in time; without a selection the active curve."""
         self._do(self._control.reverse)
+
+    def mirror(self) -> None:
+        """Wishes the selection's weights turned upside down; without a selection the active curve's."""
+        self._do(self._control.mirror)
 
     def type_value(self, axis: str, text: str, keys: Mapping[str, list[int]] | None = None) -> None:
         """Wishes times ("t") or weights ("v") of the selection, or of `keys`, as typed: “.3”, “*0.5”, “+0.1”."""
@@ -269,8 +287,7 @@ class CurveCanvas(CurveCompare):
             "frame": bool(control.selection),
         }
         acts = {**self._acts, "add": lambda: self._do(lambda: control.add(x, y, anywhere=True))}
-        keys = {action: key_name(names[0]) for action, names in self._keymap.items()}
-        return CurveMenu(self, control.active, acts, keys, {action for action, able in can.items() if not able})
+        return CurveMenu(self, control.active, acts, self.keys, {action for action, able in can.items() if not able})
 
     # The keyboard
 

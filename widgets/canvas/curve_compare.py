@@ -12,6 +12,7 @@ from core_pipeline.curves import Curve
 from .blend_bar import BlendBar
 from .curve_controller import Edit
 from .curve_pointer import CurvePointer
+from .curve_scene import Refusal
 from .curve_versions import CurveVersions
 
 
@@ -23,7 +24,7 @@ class CurveCompare(CurvePointer):
         super().__init__(parent)
         self.blend_bar = BlendBar(self)
         self.blend_bar.moved.connect(self._blend)
-        self.blend_bar.target_picked.connect(self._blend_towards)
+        self.blend_bar.target_picked.connect(self._retarget)
         self.blend_bar.kept.connect(self._keep_blend)
         self.blend_bar.taken_back.connect(self._stop)
 
@@ -42,6 +43,10 @@ class CurveCompare(CurvePointer):
         """One more version to slide to, such as a suggestion or a neighbour, under a name to show; None: no more."""
         self._versions.set_other(name, curves)
 
+    def set_neighbours(self, neighbours: Mapping[str, Mapping[str, Curve]]) -> None:
+        """Bigrams that are like the open one, to slide to and to duplicate from: name to show → curves."""
+        self._versions.set_neighbours(neighbours)
+
     def swap(self) -> None:
         """Wishes the version from before; once more: the one from now again."""
 
@@ -56,19 +61,35 @@ class CurveCompare(CurvePointer):
 
     def slide(self) -> None:
         """Opens the slider between now and another version; once more: the next of them."""
-        names = self._versions.names(self._control.curves)
         if self._control.blending:
-            at = names.index(self._versions.towards) if self._versions.towards in names else -1
-            self._blend_towards(names[(at + 1) % len(names)])
+            self.blend_bar.step_target(1)
         elif not self.busy:
-            self._blend_towards(names[0])
+            self._blend_towards(self._versions.names(self._control.curves)[0])
 
-    def _blend_towards(self, name: str) -> None:
+    def duplicate(self) -> None:
+        """Opens the slider all the way at the most similar bigram's curves; once more: at the next similar one."""
+        if self._control.blending:
+            self.blend_bar.step_target(1)
+            return
+        if self.busy:
+            return
+        neighbours = self._versions.neighbours(self._control.curves)
+        if neighbours:
+            self._blend_towards(neighbours[0], 1.0)
+        else:
+            self._control.refusal = Refusal.NO_NEIGHBOUR, ""
+            self._tell()
+
+    def _retarget(self, name: str) -> None:
+        self._blend_towards(name, self.blend_bar.share_value)
+
+    def _blend_towards(self, name: str, share: float = 0.0) -> None:
         self._stop()
         control, versions = self._control, self._versions
         versions.towards = name
         if control.begin_blend(versions.target(name, control.curves)):
-            self.blend_bar.begin(versions.names(control.curves), name)
+            self.blend_bar.begin(versions.names(control.curves), name, share)
+            self._blend(share)
         self._tell()
 
     def _blend(self, share: float) -> None:

@@ -1,4 +1,4 @@
-"""The hand's single actions: add, delete, nudge, reverse, paste, type, swap; each is one edit. No Qt.
+"""The hand's single actions: add, delete, nudge, reverse, mirror, paste, type, swap; each is one edit. No Qt.
 
 They do nothing while a gesture runs, and leave a `refusal` where they could do nothing.
 """
@@ -14,10 +14,10 @@ from core_pipeline.curves import MIN_GAP, Curve
 
 from ..value_text import parse_typed
 from .curve_clipboard import Copied
-from .curve_edits import moved, rekeyed, reversed_keys, turned_round, with_keys
-from .curve_geometry import snapped
+from .curve_edits import mirrored_values, moved, rekeyed, reversed_keys, turned_round, with_keys
 from .curve_gestures import MOVE, PLAIN, SCALE, Modifiers
 from .curve_hand import CurveHand, Edit
+from .curve_magnets import snapped
 from .curve_scene import ADD_REACH, Key, Refusal
 
 __all__ = ["ADD", "DELETE", "MOVE", "NUDGE", "PLAIN", "SCALE", "CurveController", "Edit", "Modifiers"]
@@ -33,6 +33,7 @@ DELETE = "Delete keys"
 CUT = "Cut keys"
 NUDGE = "Nudge keys"
 REVERSE = "Reverse keys"
+MIRROR = "Mirror values"
 PASTE = "Paste keys"
 TYPE = "Type values"
 SWAP = "Swap with previous version"
@@ -119,6 +120,17 @@ class CurveController(CurveHand):
             return None
         changed = {p: (curve, at) for p, (curve, at) in turned.items() if not curve.same_as(self.curves[p])}
         return self._commit_keys(turned, REVERSE) if changed else None
+
+    def mirror(self) -> Edit | None:
+        """Turns the selection upside down, without one the active curve: see curve_edits.mirrored_values."""
+        chosen = self._selection_or_active()
+        if not chosen:
+            return None
+        turned = mirrored_values(self.curves, chosen)
+        if all(curve.same_as(self.curves[pose]) for pose, (curve, _) in turned.items()):
+            self._refuse(Refusal.SAME_WEIGHT)
+            return None
+        return self._commit_keys(turned, MIRROR)
 
     def type_value(self, axis: str, text: str, keys: Mapping[str, list[int]] | None = None) -> Edit | None:
         """Times (axis "t") or weights ("v") of the selection become what `text` says; see value_text.

@@ -1,4 +1,4 @@
-"""Edits of curves that need no hand: move, scale, reverse, retype, paste and blend as pure functions. No Qt."""
+"""Edits of curves that need no hand: move, scale, reverse, mirror, retype, paste and blend as pure functions. No Qt."""
 
 from __future__ import annotations
 
@@ -82,6 +82,19 @@ def reversed_keys(curves: Mapping[str, Curve], chosen: Chosen) -> dict[str, tupl
         if turned is None:
             return None
         result[pose] = turned
+    return result
+
+
+def mirrored_values(curves: Mapping[str, Curve], chosen: Chosen) -> dict[str, tuple[Curve, list[int]]]:
+    """Chosen keys turned upside down between the least and the largest weight of them, pose → (curve, indices)."""
+    weights = np.concatenate([curves[pose].v[list(at)] for pose, at in chosen.items()])
+    about = float(weights.min() + weights.max())
+    result = {}
+    for pose, at in chosen.items():
+        curve = curves[pose]
+        v = curve.v.copy()
+        v[list(at)] = np.round(np.clip(about - v[list(at)], 0.0, 1.0), DECIMALS)
+        result[pose] = Curve(curve.t, v), list(at)
     return result
 
 

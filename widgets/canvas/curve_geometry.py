@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,9 +15,6 @@ Array = NDArray[np.float64]
 
 #: Pixels between two points of a drawn spline.
 SAMPLE_STEP = 3.0
-
-#: Grid of snapping, in normalised time and in weight.
-SNAP_STEP = 0.05
 
 
 @dataclass(frozen=True)
@@ -174,8 +171,3 @@ def scaled(curve: Curve, indices: Sequence[int], pivot: tuple[float, float], fac
     new_t = t if factor_t == 1 else pivot[0] + factor_t * (t - pivot[0])
     new_v = v if factor_v == 1 else pivot[1] + factor_v * (v - pivot[1])
     return placed(curve, indices, new_t, new_v)
-
-
-def snapped(value: float, magnets: Iterable[float]) -> float:
-    """The nearest of the grid lines and the magnets."""
-    return min((round(value / SNAP_STEP) * SNAP_STEP, *magnets), key=lambda candidate: abs(candidate - value))

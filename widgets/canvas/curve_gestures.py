@@ -13,7 +13,8 @@ from typing import NamedTuple
 from core_pipeline.curves import Curve
 
 from .curve_edits import FLAT, blended, moved, stretched
-from .curve_geometry import View, snapped
+from .curve_geometry import View
+from .curve_magnets import Landing
 from .curve_scene import Key
 from .transform_box import Box, Handle
 
@@ -25,9 +26,6 @@ FINE = 0.1
 
 #: Nearer to the middle than this, in pixels, scaling goes by way and not by ratio: no sudden leaps.
 LEAST_ARM = 60.0
-
-#: Grid of a scale factor while snapping.
-FACTOR_STEP = 0.1
 
 MOVE = "Move keys"
 SCALE = "Scale keys"
@@ -43,14 +41,6 @@ class Modifiers(NamedTuple):
 
 
 PLAIN = Modifiers()
-
-
-class Frame(NamedTuple):
-    """Where things lie during one step: the view, whether to snap, and the phone boundary."""
-
-    view: View
-    snap: bool
-    boundary: float
 
 
 class Start(NamedTuple):
@@ -132,12 +122,12 @@ class Drag(Gesture, ABC):
         return (across, not across) if held.shift else (True, True)
 
     @abstractmethod
-    def step(self, x: float, y: float, held: Modifiers, frame: Frame) -> dict[str, Curve]:
+    def step(self, x: float, y: float, held: Modifiers, landing: Landing) -> dict[str, Curve]:
         """The curves that differ from those before when the pointer is at (x, y)."""
 
 
 class Move(Drag):
-    """Moves keys; `key` is the one that meets the grid."""
+    """Moves keys; `key` is the one that meets the grid and the magnets."""
 
     label = MOVE
 
@@ -145,16 +135,14 @@ class Move(Drag):
         super().__init__(start, chosen)
         self.key = key
 
-    def step(self, x: float, y: float, held: Modifiers, frame: Frame) -> dict[str, Curve]:
+    def step(self, x: float, y: float, held: Modifiers, landing: Landing) -> dict[str, Curve]:
         """The whole selection goes as far as it can."""
         dx, dy = self.travel(x, y, held)
         in_t, in_v = self.free(dx, dy, held)
-        dt, dv = dx / frame.view.width * in_t, -dy / frame.view.height * in_v
-        if frame.snap:
-            curve = self.start.curves[self.key[0]]
-            t, v = float(curve.t[self.key[1]]), float(curve.v[self.key[1]])
-            dt = snapped(t + dt, (0.0, 1.0, frame.boundary)) - t if in_t else 0.0
-            dv = snapped(v + dv, (0.0, 1.0)) - v if in_v else 0.0
+        curve = self.start.curves[self.key[0]]
+        t, v = float(curve.t[self.key[1]]), float(curve.v[self.key[1]])
+        dt = landing.time(t + dx / landing.view.width) - t if in_t else 0.0
+        dv = landing.weight(v - dy / landing.view.height) - v if in_v else 0.0
         return moved(self.start.curves, self.chosen, dt, dv)
 
 
@@ -167,31 +155,33 @@ class Scale(Drag):
         super().__init__(start, chosen)
         self.box, self.handle = box, handle
 
-    def step(self, x: float, y: float, held: Modifiers, frame: Frame) -> dict[str, Curve]:
+    def step(self, x: float, y: float, held: Modifiers, landing: Landing) -> dict[str, Curve]:
         """The whole selection stretches as far as it can."""
         dx, dy = self.travel(x, y, held)
-        if self.handle is None:
-            pivot, factors = self.box.middle, self._by_distance(dx, dy, frame)
-        else:
-            pivot, factors = self.box.opposite(self.handle), self._by_edge(self.handle, dx, dy, frame)
         in_t, in_v = self.free(dx, dy, held)
+        if self.handle is None:
+            pivot, factor = self.box.middle, self._by_distance(dx, dy, landing.view)
+            factors = (landing.factor(factor, self._arms(in_t, in_v)),) * 2
+        else:
+            pivot, factors = self.box.opposite(self.handle), self._by_edge(self.handle, dx, dy, landing)
         kept = factors[0] if in_t else 1.0, factors[1] if in_v else 1.0
         return stretched(self.start.curves, self.chosen, pivot, kept)
 
-    def _by_distance(self, dx: float, dy: float, frame: Frame) -> tuple[float, float]:
-        x, y = frame.view.x(self.box.middle[0]), frame.view.y(self.box.middle[1])
+    def _by_distance(self, dx: float, dy: float, view: View) -> float:
+        x, y = view.x(self.box.middle[0]), view.y(self.box.middle[1])
         away_x, away_y = self.start.x - x, self.start.y - y
         before, now = hypot(away_x, away_y), hypot(away_x + dx, away_y + dy)
-        factor = max(1.0 + (now - before) / max(before, LEAST_ARM), 0.0)
-        if frame.snap:
-            factor = round(factor / FACTOR_STEP) * FACTOR_STEP
-        return factor, factor
+        return max(1.0 + (now - before) / max(before, LEAST_ARM), 0.0)
 
-    def _by_edge(self, handle: Handle, dx: float, dy: float, frame: Frame) -> tuple[float, float]:
+    def _arms(self, in_t: bool, in_v: bool) -> list[tuple[float, float, bool]]:
+        box, (t, v) = self.box, self.box.middle
+        return [(t, edge - t, True) for edge in (box.t0, box.t1) if in_t] + [
+            (v, edge - v, False) for edge in (box.v0, box.v1) if in_v
+        ]
+
+    def _by_edge(self, handle: Handle, dx: float, dy: float, landing: Landing) -> tuple[float, float]:
         (t, v), (t0, v0) = self.box.edge(handle), self.box.opposite(handle)
-        new_t, new_v = t + dx / frame.view.width, v - dy / frame.view.height
-        if frame.snap:
-            new_t, new_v = snapped(new_t, (0.0, 1.0, frame.boundary)), snapped(new_v, (0.0, 1.0))
+        new_t, new_v = landing.time(t + dx / landing.view.width), landing.weight(v - dy / landing.view.height)
         in_t = max((new_t - t0) / (t - t0), 0.0) if handle[0] and t != t0 else 1.0
         in_v = max((new_v - v0) / (v - v0), 0.0) if handle[1] and v != v0 else 1.0
         return in_t, in_v

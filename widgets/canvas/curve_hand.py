@@ -10,14 +10,20 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
 from core_pipeline.curves import Curve
 
-from .curve_gestures import PLAIN, Blend, Drag, Frame, Gesture, Marquee, Modifiers, Move, Scale, Start
+from .curve_gestures import PLAIN, Blend, Drag, Gesture, Marquee, Modifiers, Move, Scale, Start
+from .curve_magnets import Landing
 from .curve_scene import CurveScene, Refusal
 from .transform_box import Handle
 
 #: Pixels from the middle of the selection to where scaling starts when no pointer is there.
 ARM = 100.0
+
+#: Edits round to six decimals.
+_MET = 2e-6
 
 
 @dataclass(frozen=True)
@@ -32,7 +38,7 @@ class CurveHand(CurveScene, ABC):
     """The scene, and the one gesture that may be running on it.
 
     snap          whether drags and new keys keep to the grid
-    boundary      normalised time between the two phones, a magnet while snapping
+    boundary      normalised time between the two phones, a magnet
     band          the marquee's corners (x0, y0, x1, y1) in pixels while one is drawn
     hover_handle  the handle of the transform box under the pointer, or held
     refusal       why the last action did nothing, and for which pose or what text
@@ -84,6 +90,18 @@ class CurveHand(CurveScene, ABC):
         """The one axis the gesture keeps to: "t" or "v", else ""."""
         return self._gesture.axis if self._gesture is not None else ""
 
+    def met(self) -> tuple[frozenset[float], frozenset[float]]:
+        """The magnets, in time and in weight, on which a dragged key lies now."""
+        if not self.dragging:
+            return frozenset(), frozenset()
+        landing, chosen = Landing(self.view, self.boundary), self.chosen()
+        t = np.concatenate([self.curves[pose].t[at] for pose, at in chosen.items()])
+        v = np.concatenate([self.curves[pose].v[at] for pose, at in chosen.items()])
+        return (
+            frozenset(m for m in landing.times if np.abs(t - m).min() < _MET),
+            frozenset(m for m in landing.weights if np.abs(v - m).min() < _MET),
+        )
+
     def _may(self, pose: str) -> bool:
         why = self.refuses(pose)
         self.refusal = (why, pose) if why is not None else None
@@ -127,8 +145,8 @@ class CurveHand(CurveScene, ABC):
         if not gesture.far_enough(x, y):
             return None
         if isinstance(gesture, Drag):
-            snap = self.snap != held.ctrl and not held.alt
-            return self._show(gesture, gesture.step(x, y, held, Frame(self.view, snap, self.boundary)))
+            landing = Landing(self.view, self.boundary, self.snap != held.ctrl, held.alt)
+            return self._show(gesture, gesture.step(x, y, held, landing))
         if isinstance(gesture, Marquee):
             self.band = (gesture.start.x, gesture.start.y, x, y)
             self.selection = gesture.chosen(self.keys_within(*self.band))

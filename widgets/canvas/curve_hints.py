@@ -30,6 +30,10 @@ _REASONS = {
     ),
     Refusal.NO_GHOST: QT_TRANSLATE_NOOP("CurveCanvas", "there is no other version: nothing has changed yet"),
     Refusal.NO_SUCH_POSE: QT_TRANSLATE_NOOP("CurveCanvas", "this set has no pose {0}: nothing was pasted"),
+    Refusal.SAME_WEIGHT: QT_TRANSLATE_NOOP("CurveCanvas", "nothing to mirror: these keys have the same weight"),
+    Refusal.NO_NEIGHBOUR: QT_TRANSLATE_NOOP(
+        "CurveCanvas", "nothing to duplicate: no similar bigram has other curves than this one"
+    ),
     Refusal.NO_CURVES: QT_TRANSLATE_NOOP("CurveCanvas", "the clipboard holds no curves: copy keys with {copy} first"),
     Refusal.NEWER_CURVES: QT_TRANSLATE_NOOP(
         "CurveCanvas", "the curves on the clipboard come from a newer Lipstitch: update to paste them"
@@ -79,7 +83,7 @@ def hint_text(control: CurveController, keymap: Keymap) -> str:
         short = what if len(what) <= _LONGEST else what[:_LONGEST] + "…"
         return _tr(str(_REASONS[why])).format(short, **keys)
     if control.blending:
-        return _tr("slide towards the other version · Enter keeps · Esc: back")
+        return _tr("←/→ slide towards the other version · ↑/↓ another one · Enter keeps · Esc: back")
     if control.dragging:
         text = _tr("{time_only}/{weight_only} or Shift: one axis · Ctrl: snap · Alt: fine · Esc: back")
         if control.modal:

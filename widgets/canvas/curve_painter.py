@@ -32,6 +32,7 @@ PIECE = 32
 
 _GHOST = theme.mix(theme.GHOST, theme.BACKGROUND, 0.85)
 _BOUNDARY = QColor("#4a5058")
+_MET = theme.mix(theme.HIGHLIGHT, theme.BACKGROUND, 0.5)
 _BOX = theme.mix(theme.LINK, theme.BACKGROUND, 0.7)
 
 
@@ -49,7 +50,7 @@ def dots_along(points: Array) -> Array:
 
 
 class CurveItem(pg.GraphicsObject):
-    """The one item of the canvas. Reads the controller; is told ghost, played curves and labels."""
+    """The one item of the canvas. Reads the controller; is told ghost, played curves, labels, what to leave out."""
 
     def __init__(self, controller: CurveController) -> None:
         super().__init__()
@@ -58,6 +59,7 @@ class CurveItem(pg.GraphicsObject):
         self.played: Mapping[str, tuple[Array, Array]] = {}
         self.phones: tuple[str, str] = ("", "")
         self.empty_text = ""
+        self.polygon = True
 
     def boundingRect(self) -> QRectF:
         """Constant, larger than any view: the scene index is never rebuilt and nothing rescales."""
@@ -80,6 +82,7 @@ class CurveItem(pg.GraphicsObject):
         self._paint_played(painter)
         if drawn and drawn[0] == self.controller.active:
             self._paint_active(painter, drawn[0])
+        self._paint_met(painter, area)
         self._paint_box(painter)
         self._paint_selection(painter)
         self._paint_band(painter)
@@ -109,7 +112,8 @@ class CurveItem(pg.GraphicsObject):
         painter.drawText(right, Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter, second)
 
     def _paint_empty(self, painter: QPainter, area: QRectF) -> None:
-        how = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
+        where = Qt.AlignmentFlag.AlignTop if self.ghost else Qt.AlignmentFlag.AlignVCenter  # not over the ghost
+        how = where | Qt.AlignmentFlag.AlignHCenter | Qt.TextFlag.TextWordWrap
         room = painter.boundingRect(area.adjusted(20, 20, -20, -20), how, self.empty_text)
         painter.fillRect(room.adjusted(-10, -6, 10, 6), theme.BACKGROUND)
         painter.setPen(theme.MUTED)
@@ -119,6 +123,8 @@ class CurveItem(pg.GraphicsObject):
         control = self.controller
         painter.setPen(QPen(_GHOST, 1))
         for pose, curve in self.ghost.items():
+            if not control.curves:  # a suggestion: nothing else tells which pose is which
+                painter.setPen(QPen(theme.mix(self._colour(pose), theme.BACKGROUND, 0.75), 1, Qt.PenStyle.DashLine))
             if pose in control.visible and curve is not control.curves.get(pose):
                 painter.drawPolyline(polygon(spline_points(curve, control.spline, control.view)))
 
@@ -130,8 +136,7 @@ class CurveItem(pg.GraphicsObject):
     def _paint_curve(self, painter: QPainter, pose: str) -> None:
         colour = self._colour(pose)
         keys = self.controller.keys_px(pose)
-        painter.setPen(QPen(theme.mix(colour, theme.BACKGROUND, 0.35), 1))
-        painter.drawPolyline(polygon(keys))
+        self._paint_polygon(painter, keys, theme.mix(colour, theme.BACKGROUND, 0.35))
         painter.setPen(QPen(theme.mix(colour, theme.BACKGROUND, 0.8), 1))
         painter.drawPolyline(polygon(self.controller.spline_px(pose)))
         painter.setPen(Qt.PenStyle.NoPen)
@@ -140,11 +145,15 @@ class CurveItem(pg.GraphicsObject):
             painter.drawEllipse(QPointF(x, y), 2.8, 2.8)
         painter.setBrush(Qt.BrushStyle.NoBrush)
 
+    def _paint_polygon(self, painter: QPainter, keys: Array, colour: QColor) -> None:
+        if self.polygon:
+            painter.setPen(QPen(colour, 1))
+            painter.drawPolyline(polygon(keys))
+
     def _paint_active(self, painter: QPainter, pose: str) -> None:
         colour = self._colour(pose)
         keys = self.controller.keys_px(pose)
-        painter.setPen(QPen(theme.mix(colour, theme.BACKGROUND, 0.6), 1))
-        painter.drawPolyline(polygon(keys))
+        self._paint_polygon(painter, keys, theme.mix(colour, theme.BACKGROUND, 0.6))
         pen = QPen(colour, BOLD, Qt.PenStyle.SolidLine, Qt.PenCapStyle.SquareCap, Qt.PenJoinStyle.BevelJoin)
         painter.setPen(pen)
         points = self.controller.spline_px(pose)
@@ -178,6 +187,20 @@ class CurveItem(pg.GraphicsObject):
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.setPen(QPen(theme.BRIGHT, 1))
             painter.drawEllipse(QPointF(x, y), 8.0, 8.0)
+
+    def _paint_met(self, painter: QPainter, area: QRectF) -> None:
+        """A line along every magnet that holds a dragged key."""
+        times, weights = self.controller.met()
+        if not times and not weights:
+            return
+        view = self.controller.view
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+        painter.setPen(_MET)
+        for t in times:
+            painter.drawLine(QLineF(round(view.x(t)), area.top(), round(view.x(t)), area.bottom()))
+        for v in weights:
+            painter.drawLine(QLineF(area.left(), round(view.y(v)), area.right(), round(view.y(v))))
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
 
     def _paint_box(self, painter: QPainter) -> None:
         control = self.controller

@@ -38,6 +38,8 @@ class Refusal(Enum):
     NEWER_CURVES = auto()
     BROKEN_CURVES = auto()
     NO_SUCH_POSE = auto()
+    SAME_WEIGHT = auto()
+    NO_NEIGHBOUR = auto()
 
 
 class CurveScene:

@@ -33,6 +33,7 @@ class CurveVersions:
         self._left: Curves | None = None
         self._reached: Curves = {}
         self._others: dict[str, Curves] = {}
+        self._neighbours: dict[str, Curves] = {}
 
     def set_snapshot(self, curves: Curves | None) -> None:
         """The version from before; what was left by a swap is forgotten."""
@@ -44,6 +45,14 @@ class CurveVersions:
             self._others.pop(name, None)
         else:
             self._others[name] = dict(curves)
+
+    def set_neighbours(self, neighbours: Mapping[str, Curves]) -> None:
+        """Name → curves of bigrams that are like this one, the most similar first."""
+        self._neighbours = {name: dict(curves) for name, curves in neighbours.items()}
+
+    def neighbours(self, now: Curves) -> list[str]:
+        """Names of those that differ from `now`."""
+        return [name for name, curves in self._neighbours.items() if not same(now, curves)]
 
     def other(self, now: Curves) -> Curves:
         """The other version while `now` is shown."""
@@ -58,9 +67,10 @@ class CurveVersions:
 
     def names(self, now: Curves) -> list[str]:
         """Versions to slide to, the one from before first unless it is what is shown already."""
-        first = [] if same(now, self.other(now)) and self._others else [PREVIOUS]
-        return first + list(self._others)
+        others = [*self._others, *self.neighbours(now)]
+        first = [] if same(now, self.other(now)) and others else [PREVIOUS]
+        return first + others
 
     def target(self, name: str, now: Curves) -> Curves:
         """The curves of a version."""
-        return self._others.get(name, self.other(now))
+        return self._others.get(name) or self._neighbours.get(name) or self.other(now)

@@ -22,7 +22,8 @@ class ValueField(QLineEdit):
         super().__init__(parent)
         self._shown = ""
         self.setFont(theme.mono_font())
-        self.setFixedWidth(self.fontMetrics().horizontalAdvance("0.000 … 0.000") + 22)
+        self.setMinimumWidth(self.fontMetrics().horizontalAdvance("0.000") + 22)
+        self.setMaximumWidth(self.fontMetrics().horizontalAdvance("0.000 … 0.000") + 22)
         self.setEnabled(False)
         self.returnPressed.connect(self._wish)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QSize, Qt, Signal
-from PySide6.QtGui import QIcon, QKeySequence, QMouseEvent, QPainter, QPixmap
+from PySide6.QtGui import QIcon, QKeyEvent, QKeySequence, QMouseEvent, QPainter, QPixmap, QShortcut
 from PySide6.QtWidgets import QSizePolicy, QToolButton, QWidget
 
 from .. import theme
@@ -13,7 +13,10 @@ _ICON = QSize(24, 12)
 
 
 class StageChip(QToolButton):
-    """Checked while its stage is shown; emits `soloed(name)` on a right-click or a double-click."""
+    """Checked while its stage is shown.
+
+    soloed(name)  Alt+click, right-click, double-click, Shift+Alt+number, or S while it has the keyboard
+    """
 
     soloed = Signal(str)
 
@@ -31,9 +34,13 @@ class StageChip(QToolButton):
         self.setText(label)
         shortcut = QKeySequence(Qt.Modifier.ALT | Qt.Key(Qt.Key.Key_0 + number))
         self.setShortcut(shortcut)  # after the text, which would replace it
-        tip = self.tr("%1 (%2) · right-click or double-click: only this one")
-        keys = shortcut.toString(QKeySequence.SequenceFormat.NativeText)
-        self.setToolTip(tip.replace("%1", label).replace("%2", keys))
+        alone = QKeySequence(Qt.Modifier.SHIFT | Qt.Modifier.ALT | Qt.Key(Qt.Key.Key_0 + number))
+        QShortcut(alone, self, self._solo)
+        native = QKeySequence.SequenceFormat.NativeText
+        tip = self.tr("%1 (%2) · only this one: Alt+click or %3")
+        for mark, text in (("%1", label), ("%2", shortcut.toString(native)), ("%3", alone.toString(native))):
+            tip = tip.replace(mark, text)
+        self.setToolTip(tip)
         self.setAccessibleName(label)
         self.setAccessibleDescription(self.tr("Shows or hides this stage of the pipeline"))
 
@@ -67,8 +74,9 @@ class StageChip(QToolButton):
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Qt's hook."""
-        if event.button() == Qt.MouseButton.RightButton:
-            self.soloed.emit(self.name)
+        by_alt = event.button() == Qt.MouseButton.LeftButton and event.modifiers() & Qt.KeyboardModifier.AltModifier
+        if event.button() == Qt.MouseButton.RightButton or by_alt:
+            self._solo()
         else:
             super().mousePressEvent(event)
 
@@ -76,4 +84,14 @@ class StageChip(QToolButton):
         """Qt's hook: takes back what the first click did, then asks for this stage alone."""
         if event.button() == Qt.MouseButton.LeftButton:
             self.toggle()
-            self.soloed.emit(self.name)
+            self._solo()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Qt's hook: S asks for this stage alone."""
+        if event.key() == Qt.Key.Key_S and not event.modifiers():
+            self._solo()
+        else:
+            super().keyPressEvent(event)
+
+    def _solo(self) -> None:
+        self.soloed.emit(self.name)

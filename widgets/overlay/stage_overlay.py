@@ -2,64 +2,40 @@
 
 "There are no black-box components" (section 3.2.4): hover to read a place, click to open the bigram that made it.
 
-    press or drag in Time      scrub            wheel                  zoom about the mouse
-    Shift+drag in Time         loop range       Shift+wheel, middle    pan
-    double-click Time, Home    see everything   click a row, Enter     open the bigram
+    press or drag in Time   scrub            wheel                  zoom about the mouse
+    Shift+drag in Time      loop range       Shift+wheel, middle    pan
+    double-click Time       see everything   click a row            open the bigram
 """
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QPoint, Qt, Signal
-from PySide6.QtGui import QFocusEvent, QHelpEvent, QKeyEvent, QMouseEvent, QWheelEvent
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
+from PySide6.QtGui import QHelpEvent, QKeyEvent, QMouseEvent, QWheelEvent
 from PySide6.QtWidgets import QToolTip, QWidget
 
 from core_pipeline.pipeline import Stages
 from core_pipeline.poses import MEANING
 
 from .stage_footer import ROW, phone_tip
-from .stage_picking import Reading, bigram_at, phone_at, read
+from .stage_keyboard import NOTCH, StageKeyboard
+from .stage_marks import Mark, mark_at
+from .stage_picking import phone_at, read
 from .stage_rows import Row
-from .stage_view import StageView
 
 #: A press that moves no further than this many pixels is a click.
 CLICK = 3
-#: One notch of the wheel zooms by this factor.
-NOTCH = 1.25
 _LEFT, _MIDDLE = Qt.MouseButton.LeftButton, Qt.MouseButton.MiddleButton
 
 
-class StageOverlay(StageView):
-    """Rows of stages under the hand.
-
-    bigram_picked(index, time, pose)  a row was clicked where bigram `index` made the curve
-    scrubbed(time), scrub_finished(time)
-    pose_activated(pose)              a row's name was clicked
-    loop_range_changed(range)         (from, to) in seconds, or None
-    read_out(reading)                 a stage_picking.Reading under the mouse, or None
-    """
-
-    bigram_picked = Signal(int, float, str)
-    scrubbed = Signal(float)
-    scrub_finished = Signal(float)
-    pose_activated = Signal(str)
-    loop_range_changed = Signal(object)
-    read_out = Signal(object)
+class StageOverlay(StageKeyboard):
+    """Rows of stages under the mouse, and what the keyboard adds."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setMouseTracking(True)
-        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setAccessibleName(self.tr("Pipeline stages"))
-        self.setAccessibleDescription(
-            self.tr(
-                "The curves of every pose after each stage. Left and Right step through the phones, Up and Down "
-                "through the poses, Enter opens the bigram under the playhead, plus and minus zoom, Home shows all."
-            )
-        )
         self._gesture = ""
         self._from = QPoint()
         self._loop_before: tuple[float, float] | None = None
-        self._mouse: QPoint | None = None
 
     def set_stages(self, stages: Stages | None) -> None:
         """Show another result, and read anew what is under the mouse."""
@@ -165,7 +141,9 @@ class StageOverlay(StageView):
 
     def _click(self, zone: str, at: QPoint) -> None:
         row = self._row_at(at)
-        if zone == "name" and row is not None:
+        if marks := mark_at(QPointF(at), self._marks, self.axis, self.row_of):
+            self._open_mark(marks[0])
+        elif zone == "name" and row is not None:
             self.pose_activated.emit(row.pose)
         elif zone == "row" and row is not None:
             self._open(row.pose, self.axis.time(at.x()))
@@ -180,14 +158,14 @@ class StageOverlay(StageView):
         a, b = sorted((self.axis.time(self._from.x()), self.axis.time(at.x())))
         return (a, b) if b > a else None
 
-    def _open(self, pose: str, time: float) -> None:
-        if self._stages is not None and (index := bigram_at(self._stages, pose, time)) is not None:
-            self.bigram_picked.emit(index, time, pose)
-
-    def _scrub_to(self, time: float) -> None:
-        self._set_axis(self.axis.revealing(time, time))
-        self.scrubbed.emit(time)
-        self.scrub_finished.emit(time)
+    def _open_mark(self, mark: Mark) -> None:
+        if self._stages is None:
+            return
+        times, pairs = self._stages.schedule.times, self._stages.schedule.pairs()
+        places = [i for i, pair in enumerate(pairs) if pair == mark.pair]
+        if places:
+            index = min(places, key=lambda i: abs(float(times[i + 1]) - mark.time))
+            self.bigram_picked.emit(index, mark.time, mark.pose or self.active_pose)
 
     # Reading
 
@@ -199,15 +177,6 @@ class StageOverlay(StageView):
             self._show_reading(None)
         else:
             self._show_reading(read(self._stages, row.pose, self.axis.time(at.x())))
-
-    def _show_reading(self, reading: Reading | None) -> None:
-        if reading == self._reading:
-            return
-        old, self._reading = self._reading, reading
-        for pose in {r.pose for r in (old, reading) if r is not None}:
-            if (row := self.row_of(pose)) is not None:
-                self.update(0, row.top, self.width(), row.height)
-        self.read_out.emit(reading)
 
     def event(self, event: QEvent) -> bool:
         """Qt's hook: tooltips for pose names and phones."""
@@ -224,6 +193,8 @@ class StageOverlay(StageView):
         zone, row = self._zone(at), self._row_at(at)
         if self._stages is None:
             return ""
+        if marks := mark_at(QPointF(at), self._marks, self.axis, self.row_of):
+            return "\n".join(f"{' – '.join(mark.pair)}: {mark.reason}" for mark in marks)
         if zone == "name" and row is not None:
             meaning = MEANING.get(row.pose, "")
             return f"{row.pose}: {meaning}" if meaning else row.pose
@@ -236,60 +207,10 @@ class StageOverlay(StageView):
             return phone_tip(self._stages, phone_at(self._stages, self.axis.time(at.x())), self._sources)
         return ""
 
-    # Keyboard
-
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Qt's hook; see the module's picture."""
-        key = Qt.Key(event.key())
-        if self._stages is None or not self._obey(key):
-            super().keyPressEvent(event)
-
-    def _obey(self, key: Qt.Key) -> bool:
-        steps = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1}
-        poses = {Qt.Key.Key_Up: -1, Qt.Key.Key_Down: 1}
-        zooms = {Qt.Key.Key_Plus: NOTCH, Qt.Key.Key_Equal: NOTCH, Qt.Key.Key_Minus: 1 / NOTCH}
-        if key in steps:
-            self._step(steps[key])
-        elif key in poses:
-            names = list(self._lines)
-            if names:
-                here = names.index(self.active_pose) + poses[key]
-                self.pose_activated.emit(names[min(max(here, 0), len(names) - 1)])
-        elif key in {Qt.Key.Key_Return, Qt.Key.Key_Enter}:
-            self._open(self.active_pose, self._playhead)
-        elif key in zooms:
-            axis = self.axis
-            about = self._playhead if axis.sees(self._playhead) else (axis.left + axis.right) / 2
-            self._set_axis(axis.zoomed(zooms[key], about))
-        elif key == Qt.Key.Key_Home:
-            self.fit()
-        elif key == Qt.Key.Key_Escape and self._gesture == "loop":
+        """Qt's hook: Escape gives a loop drag up; the rest is StageKeyboard's."""
+        if event.key() == Qt.Key.Key_Escape and self._gesture == "loop":
             self._gesture = ""
             self.set_loop_range(self._loop_before)
         else:
-            return False
-        return True
-
-    def _step(self, way: int) -> None:
-        """To the next or the previous phone boundary."""
-        if self._stages is None:
-            return
-        times = self._stages.schedule.times.tolist()
-        if way > 0:
-            self._scrub_to(next((t for t in times if t > self._playhead + 1e-4), times[-1]))
-        else:
-            self._scrub_to(next((t for t in reversed(times) if t < self._playhead - 1e-4), times[0]))
-
-    def fit(self) -> None:
-        """See the whole utterance."""
-        self._set_axis(self.axis.fitted())
-
-    def focusInEvent(self, event: QFocusEvent) -> None:
-        """Qt's hook: the focus ring."""
-        super().focusInEvent(event)
-        self.update()
-
-    def focusOutEvent(self, event: QFocusEvent) -> None:
-        """Qt's hook: the focus ring."""
-        super().focusOutEvent(event)
-        self.update()
+            super().keyPressEvent(event)

@@ -20,14 +20,17 @@ from .. import theme
 from .bigram_model import BigramModel, Index
 from .phone_header import PhoneHeader, fits_level, header_font, widest
 
-MIN_CELL, MAX_CELL = 11, 24  # pixels; 11 only where the view must scroll as well
+MIN_CELL, MIN_TALL, MAX_CELL = 11, 9, 28  # pixels; a width of 11 only where the view must scroll as well
+_WIDER = 2  # a cell is at most this many times as wide as tall
+_FAINTEST = 0.45  # share of orange on the least weak cell
 _DIMMED = 0.35  # share of the fill left on cells that a search did not find
 
 
 class BigramGrid(QTableView):
     """The square. Arrow keys and clicks move the current cell and open it at once: `picked(pair)`.
 
-    Cells stay square, from 12 to 24 pixels by the space there is; in less they take 11 and the view scrolls.
+    Cells fill the width, each from 12 pixels on; they are as tall as wide where there is the height, else lower,
+    down to 9. In less the view scrolls.
     """
 
     picked = Signal(tuple)
@@ -63,9 +66,9 @@ class BigramGrid(QTableView):
         self.setAccessibleDescription(self.tr("Rows: first phone. Columns: second phone. Arrow keys open bigrams."))
 
     @property
-    def cell(self) -> int:
-        """Side of a cell in pixels."""
-        return self._across.defaultSectionSize()
+    def cell(self) -> QSize:
+        """A cell in pixels."""
+        return QSize(self._across.defaultSectionSize(), self._down.defaultSectionSize())
 
     def set_current(self, pair: Pair | None) -> None:
         """Show which bigram is open; emits nothing."""
@@ -90,16 +93,16 @@ class BigramGrid(QTableView):
             return QRect()
         size = self.cell
         x, y = -self.horizontalOffset(), -self.verticalOffset()
-        return QRect(x + cell[1] * size, y + cell[0] * size, size - 1, size - 1)
+        return QRect(x + cell[1] * size.width(), y + cell[0] * size.height(), size.width() - 1, size.height() - 1)
 
     def sizeHint(self) -> QSize:
         """Room for cells of 17 pixels."""
-        return self._whole(17)
+        return self._whole(17, 17)
 
     def minimumSizeHint(self) -> QSize:
         """The whole width of the smallest cells, some rows."""
-        small = self._whole(MIN_CELL)
-        return QSize(small.width(), min(small.height(), self._head(MIN_CELL) + 10 * MIN_CELL))
+        small = self._whole(MIN_CELL, MIN_TALL)
+        return QSize(small.width(), min(small.height(), self._head(MIN_CELL) + 10 * MIN_TALL))
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Choose the largest cells that fit."""
@@ -148,18 +151,19 @@ class BigramGrid(QTableView):
         if not count:
             return
         origin = QPoint(-self.horizontalOffset(), -self.verticalOffset())
-        side = count * size
+        wide, tall = count * size.width(), count * size.height()
         painter.translate(origin)
-        painter.drawImage(QRect(0, 0, side, side), self._image)
+        painter.drawImage(QRect(0, 0, wide, tall), self._image)
         painter.setPen(theme.SUNKEN)
-        edges = [(i + 1) * size - 1 for i in range(count)]
-        painter.drawLines([QLine(e, 0, e, side - 1) for e in edges] + [QLine(0, e, side - 1, e) for e in edges])
+        across = [(i + 1) * size.width() - 1 for i in range(count)]
+        down = [(i + 1) * size.height() - 1 for i in range(count)]
+        painter.drawLines([QLine(x, 0, x, tall - 1) for x in across] + [QLine(0, y, wide - 1, y) for y in down])
         painter.translate(-origin)
         current = self.pairs.pair_at(self.currentIndex()) if self.currentIndex().isValid() else None
         self._paint_rings(painter, current)
         if self.hasFocus():
             painter.setPen(theme.ACCENT)
-            painter.drawRect(QRect(origin, QSize(side - 1, side - 1)))
+            painter.drawRect(QRect(origin, QSize(wide - 1, tall - 1)))
         if current is not None:
             ring = self.rect_of(current)
             painter.setPen(theme.HIGHLIGHT)
@@ -194,7 +198,12 @@ class BigramGrid(QTableView):
                 self._pixels[cell] = colours.get(status, colours["draft"])
         for pair in self.pairs.weak:
             if cell := self.pairs.cell(pair):
-                self._pixels[cell] = theme.WEAK.rgb()
+                share = self.pairs.weakness.get(pair, 1.0)
+                own = theme.STATUS_COLOURS.get(self.pairs.statuses.get(pair, "empty"), theme.WEAK)
+                self._pixels[cell] = theme.mix(theme.WEAK, own, _FAINTEST + (1 - _FAINTEST) * share).rgb()
+        for pair, amount in (self.pairs.differences or {}).items():
+            if cell := self.pairs.cell(pair):
+                self._pixels[cell] = theme.mix(theme.HIGHLIGHT, theme.SUNKEN, min(max(amount, 0.0), 1.0)).rgb()
         if self._found is not None:
             found = np.zeros((count, count), bool)
             for pair in self._found:
@@ -218,35 +227,49 @@ class BigramGrid(QTableView):
     def _lay_out(self) -> None:
         self._hovered = QModelIndex()
         phonemes = self.pairs.phonemes
-        wide = self._largest(self.width(), 1 << 20)
         cell = self._largest(self.width(), self.height())
-        for header in (self._across, self._down):
-            header.setDefaultSectionSize(cell)
-        self._across.setFixedHeight(self._head(cell))
-        self._down.setFixedWidth(widest(phonemes, cell) + 10)
+        self._across.setDefaultSectionSize(cell.width())
+        self._down.setDefaultSectionSize(cell.height())
+        self._across.setFixedHeight(self._head(cell.width()))
+        # What is left beside whole cells goes to the names, unless the cells are at their widest.
+        count, names = max(len(phonemes), 1), self._names(cell.height())
+        left = self.width() - names - count * cell.width()
+        scrolled = self._head(cell.width()) + count * cell.height() > self.height()
+        self._down.setFixedWidth(names + left if 0 <= left < count and not scrolled else names)
         self.updateGeometries()
         # No taller than the cells need, so that what stands below follows at once.
-        self.setMaximumHeight(self._whole(wide).height() if self.width() >= self._whole(wide).width() else 1 << 14)
+        most = self._largest(self.width(), 1 << 20)
+        whole = self._whole(most.width(), most.height())
+        self.setMaximumHeight(whole.height() if self.width() >= whole.width() else 1 << 14)
         self.updateGeometry()
         if self.currentIndex().isValid():
             self.scrollTo(self.currentIndex())
         self._outdate()
 
-    def _head(self, cell: int) -> int:
-        if fits_level(self.pairs.phonemes, cell):
-            return QFontMetrics(header_font(cell)).height() + 6
-        return widest(self.pairs.phonemes, cell) + 8
+    def _names(self, tall: int) -> int:
+        """Width of the row names beside cells this tall."""
+        return widest(self.pairs.phonemes, tall) + 10
 
-    def _whole(self, cell: int) -> QSize:
-        side = len(self.pairs.phonemes) * cell
-        return QSize(widest(self.pairs.phonemes, cell) + 10 + side, self._head(cell) + side)
+    def _head(self, wide: int) -> int:
+        """Height of the column names above cells this wide."""
+        if fits_level(self.pairs.phonemes, wide):
+            return QFontMetrics(header_font(wide)).height() + 6
+        return widest(self.pairs.phonemes, wide) + 8
 
-    def _largest(self, width: int, height: int) -> int:
-        for cell in range(MAX_CELL, MIN_CELL, -1):
-            whole = self._whole(cell)
-            if whole.width() <= width and whole.height() <= height:
-                return cell
-        return MIN_CELL
+    def _whole(self, wide: int, tall: int) -> QSize:
+        count = len(self.pairs.phonemes)
+        return QSize(self._names(tall) + count * wide, self._head(wide) + count * tall)
+
+    def _largest(self, width: int, height: int) -> QSize:
+        count = max(len(self.pairs.phonemes), 1)
+        for narrower in range(3):  # wider cells may have taller names above them, which then have no room
+            for tall in range(MAX_CELL, MIN_TALL - 1, -1):
+                wide = min((width - self._names(tall)) // count, _WIDER * tall) - narrower
+                if wide >= max(tall, MIN_CELL + 1) and self._head(wide) + count * tall <= height:
+                    return QSize(wide, tall)
+        room = width - self._names(MIN_TALL) - self.verticalScrollBar().sizeHint().width()
+        wide = min(room // count, _WIDER * MIN_TALL)
+        return QSize(max(wide, MIN_CELL), MIN_TALL)
 
 
 def _inside(rect: QRect, inset: int) -> QRect:

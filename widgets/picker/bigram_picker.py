@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Mapping, Sequence
 from itertools import pairwise
+from types import MappingProxyType
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtGui import QAction, QActionGroup, QKeyEvent
@@ -19,6 +20,8 @@ from .. import theme
 from .bigram_grid import BigramGrid
 from .bigram_legend import BigramLegend, CoverageBar
 from .bigram_model import spoken_pair
+
+NONE: Mapping[Pair, float] = MappingProxyType({})
 
 
 def phones_in(text: str, phonemes: Sequence[str]) -> tuple[str, ...]:
@@ -63,6 +66,7 @@ class BigramPicker(QWidget):
         self._next = 0
 
         self._orders: Mapping[str, tuple[str, ...]] = {}
+        self.order_name = ""
         self.order = QToolButton()
         self.order.setIcon(theme.icon("sort", theme.MUTED))
         self.order.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
@@ -96,27 +100,41 @@ class BigramPicker(QWidget):
             self._search(self.search.text(), open_pair=False)
 
     def set_orders(self, orders: Mapping[str, Sequence[str]]) -> None:
-        """Name → the same phones in another order, for the menu beside the search; the first one is shown."""
+        """Name → the same phones in another order, for the menu beside the search; the one chosen before stays."""
+        chosen = self.order_name if self.order_name in orders else next(iter(orders), "")
         self._orders = {name: tuple(phones) for name, phones in orders.items()}
         menu = self.order.menu()
         menu.clear()
         group = QActionGroup(menu)
         for name in self._orders:
-            action = QAction(name, group, checkable=True, checked=not menu.actions())
-            menu.addAction(action)
-        group.triggered.connect(lambda action: self.set_phonemes(self._orders[action.text()]))
+            menu.addAction(QAction(name, group, checkable=True))
+        group.triggered.connect(lambda action: self.set_order(action.text()))
         self.order.setVisible(len(self._orders) > 1)
-        if self._orders:
-            self.set_phonemes(next(iter(self._orders.values())))
+        self.set_order(chosen)
+
+    def set_order(self, name: str) -> None:
+        """Shows rows and columns in one of the orders; ignored when there is none of that name."""
+        if name in self._orders:
+            self.order_name = name
+            for action in self.order.menu().actions():
+                action.setChecked(action.text() == name)
+            self.order.setToolTip(self.tr("Order of rows and columns: %1").replace("%1", name))
+            self.set_phonemes(self._orders[name])
 
     def set_statuses(self, statuses: Mapping[Pair, str]) -> None:
         """Pair → status; a pair not named is empty."""
         self.grid.pairs.statuses = statuses
         self.grid.pairs.refresh()
 
-    def set_weak(self, weak: Mapping[Pair, str]) -> None:
-        """Pair → why it is weak, in a few words."""
+    def set_weak(self, weak: Mapping[Pair, str], shares: Mapping[Pair, float] = NONE) -> None:
+        """Pair → why it is weak, in a few words, and how weak beside the weakest, 0…1; unknown: as weak as that."""
         self.grid.pairs.weak = weak
+        self.grid.pairs.weakness = shares
+        self.grid.pairs.refresh()
+
+    def set_differences(self, differences: Mapping[Pair, float] | None) -> None:
+        """Tint pairs by how much they differ from another set, 0…1, in place of status; None: no more."""
+        self.grid.pairs.differences = differences
         self.grid.pairs.refresh()
 
     def set_used(self, used: Mapping[Pair, int]) -> None:

@@ -14,7 +14,7 @@ from .. import theme
 def header_font(cell: int) -> QFont:
     """As large as a row of `cell` pixels allows."""
     font = QFont()
-    font.setPixelSize(min(12, cell - 3))
+    font.setPixelSize(min(12, max(cell - 3, 8)))
     return font
 
 

@@ -8,7 +8,6 @@ from PySide6.QtWidgets import QApplication
 
 from tests.helpers.curve_hand import ALT, CTRL, FV, LEFT, MIDDLE, NO_BUTTON, NONE, OPEN, SHIFT
 from widgets import theme
-from widgets.canvas.canvas_header import CanvasHeader
 from widgets.canvas.curve_axes import grid_values
 
 Key = Qt.Key
@@ -248,11 +247,11 @@ def test_a_value_from_outside_is_not_answered_with_a_wish(hand, canvas):
     assert not hand.edits
 
 
-def test_comma_and_point_walk_the_keys(hand, canvas):
-    hand.key(Key.Key_Period)
-    hand.key(Key.Key_Period)
+def test_brackets_walk_the_keys(hand, canvas):
+    hand.key(Key.Key_BracketRight)
+    hand.key(Key.Key_BracketRight)
     assert canvas.selection == {("FV", 1)}
-    hand.key(Key.Key_Comma)
+    hand.key(Key.Key_BracketLeft)
     assert canvas.selection == {("FV", 0)}
 
 
@@ -432,47 +431,3 @@ def test_an_empty_bigram_says_how_to_begin(canvas):
     before = count(canvas, theme.MUTED)
     canvas.set_curves({})
     assert count(canvas, theme.MUTED) > before
-
-
-# The header
-
-
-def test_the_header_tells_bigram_example_use_and_status(qtbot):
-    header = CanvasHeader()
-    qtbot.addWidget(header)
-    header.set_bigram("f", "ah")
-    header.set_example("fat", (0, 2))
-    header.set_usage(2)
-    header.set_status("draft")
-    assert header.text == "F – Ah · as in “fat” · used 2× in this sentence · draft"
-    header.set_usage(0)
-    header.set_example("")
-    assert header.text == "F – Ah · not in this sentence · draft"
-
-
-def test_the_header_gives_up_the_example_first_when_it_is_narrow(qtbot):
-    header = CanvasHeader()
-    qtbot.addWidget(header)
-    header.set_bigram("f", "ah")
-    header.set_example("fat", (0, 2))
-    header.set_usage(2)
-    header.set_status("draft")
-    header.show()
-    shown = []
-    for width in (900, 400, 240):
-        header.resize(width, header.height())
-        shown.append([part in header.detail for part in ("as in", "used", "draft")])
-    assert shown == [[True, True, True], [False, True, True], [False, False, True]]
-
-
-def test_the_header_buttons_say_what_is_wanted(qtbot):
-    header = CanvasHeader()
-    qtbot.addWidget(header)
-    header.set_snap(True)
-    snap, frame = header.buttons
-    with qtbot.waitSignal(header.snap_toggled) as wish:
-        qtbot.mouseClick(snap, LEFT)
-    assert wish.args == [False]
-    with qtbot.waitSignal(header.frame_all_wanted):
-        qtbot.mouseClick(frame, LEFT)
-    assert all(button.accessibleName() and button.toolTip() for button in header.buttons)

@@ -5,7 +5,7 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 
 from core_pipeline.curves import Curve
-from tests.helpers.curve_hand import ALT, FV, LEFT, OPEN, SHIFT
+from tests.helpers.curve_hand import ALT, CTRL, FV, LEFT, OPEN, SHIFT
 from widgets.canvas.curve_edits import blended
 from widgets.canvas.curve_versions import CurveVersions
 
@@ -165,17 +165,47 @@ def test_alt_d_once_more_slides_to_the_next_version(hand, ghosted, qtbot):
     assert bar.targets.count() == 1
 
 
-def test_a_version_picked_in_the_bar_starts_from_now_again(hand, ghosted, qtbot):
-    ghosted.set_blend_target("neighbour", {"FV": OPEN})
+def test_a_version_picked_in_the_bar_starts_from_the_curves_as_they_were(hand, ghosted, qtbot):
+    ghosted.set_blend_target("suggestion", {"FV": OPEN, "open": OPEN})
     ghosted.slide()
     bar = ghosted.blend_bar
     qtbot.keyClick(bar.slider, Key.Key_PageUp)
-    bar.targets.setCurrentText("neighbour")
-    bar.targets.textActivated.emit("neighbour")
-    assert bar.slider.value() == 0
-    assert ghosted.curves["FV"] is FV
+    bar.targets.setCurrentText("suggestion")
+    bar.targets.textActivated.emit("suggestion")
+    assert bar.slider.value() == 10
+    assert hand.cancelled == 1
+    assert ghosted.curves.keys() == {"FV", "open"}
+    assert ghosted.curves["FV"].same_as(blended(FV, OPEN, 0.1))
     qtbot.keyClick(bar.slider, Key.Key_Escape)
     assert not hand.edits
+    assert ghosted.curves["FV"] is FV
+
+
+def test_ctrl_d_takes_over_a_similar_bigram_and_up_and_down_choose_another(hand, ghosted, qtbot):
+    ghosted.set_neighbours({"F – Aa": {"open": OPEN, "FV": FV}, "F – Ao": {"FV": OPEN}, "F – Eh": {"W": FV}})
+    hand.key(Key.Key_D, CTRL)
+    bar = ghosted.blend_bar
+    # What is as the open bigram is already stands in no list.
+    assert [bar.targets.itemText(i) for i in range(bar.targets.count())] == ["previous version", "F – Ao", "F – Eh"]
+    assert bar.targets.currentText() == "F – Ao"
+    assert bar.slider.value() == 100
+    assert hand.previews[-1]["FV"] is OPEN
+    for key, name in ((Key.Key_Down, "F – Eh"), (Key.Key_Up, "F – Ao"), (Key.Key_Down, "F – Eh")):
+        qtbot.keyClick(bar.slider, key)
+        assert (bar.targets.currentText(), bar.slider.value()) == (name, 100)
+    assert not hand.edits
+    qtbot.keyClick(bar.slider, Key.Key_Return)
+    ((changes, _),) = hand.edits
+    assert changes == {"W": FV, "open": None, "FV": None}
+    hand.undo()
+    assert ghosted.curves["FV"] is FV
+
+
+def test_where_no_bigram_is_similar_duplicating_says_so(hand, canvas):
+    canvas.set_neighbours({"F – Aa": {"open": OPEN, "FV": FV}})
+    hand.key(Key.Key_D, CTRL)
+    assert not canvas.busy
+    assert "nothing to duplicate" in hand.hints[-1]
 
 
 def test_another_bigram_closes_the_slider_and_edits_neither(hand, ghosted, qtbot):
@@ -198,7 +228,7 @@ def test_a_click_on_the_canvas_keeps_what_the_slider_shows(hand, ghosted, qtbot)
     assert len(hand.edits) == 1
     assert not ghosted.blend_bar.isVisible()
     assert not ghosted.busy
-    qtbot.keyClick(ghosted, Key.Key_Period)
+    qtbot.keyClick(ghosted, Key.Key_BracketRight)
     assert ghosted.selection == {("FV", 0)}
 
 

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QGuiApplication
+from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
 from core_pipeline.curves import MIN_GAP, Curve
@@ -28,10 +29,10 @@ SINGLE = (*ARROWS, Key.Key_Delete, Key.Key_Escape, Key.Key_Comma, Key.Key_F, Key
 COMMANDS = (
     *((Key.Key_Insert, NONE), (Key.Key_M, CTRL), (Key.Key_C, CTRL), (Key.Key_X, CTRL), (Key.Key_V, CTRL)),
     *((Key.Key_V, CTRL | SHIFT), (Key.Key_Backslash, NONE), (Key.Key_D, ALT), (Key.Key_A, CTRL), (Key.Key_I, NONE)),
-    *((Key.Key_PageDown, NONE), (Key.Key_PageUp, NONE)),
+    *((Key.Key_PageDown, NONE), (Key.Key_PageUp, NONE), (Key.Key_M, CTRL | SHIFT), (Key.Key_D, CTRL)),
 )
 IN_GESTURE = (*ARROWS, Key.Key_X, Key.Key_Y, Key.Key_Return, Key.Key_Return, Key.Key_Escape)
-TYPED = ("*0.5", "*2", "+0.1", "-.2", "=.3", "0.7", "/0", "zzz", "1", "0")
+TYPED = ("*0.5", "*2", "+0.1", "-.2", "=.3", "0.7", "/0", "zzz", "1", "0", "*.5 +.2", "=.4 *.5")
 CLIPBOARDS = ("", "text", '{"schema": "lipstitch.Curves.1", "curves": {"x": [[1, 2]]}}')
 #: Narrower than any canvas makes it: keys as a file may bring them.
 NEAR = Curve(np.array([0.2, 0.2002, 0.6, 1.0]), np.array([0.0, 0.5, 0.9, 0.1]))
@@ -131,8 +132,11 @@ class Monkey:
 
     def slide(self):
         """Along the slider between versions, and keeps or takes back; or leaves it open."""
-        self.canvas.slide()
+        self.dice.choice((self.canvas.slide, self.canvas.duplicate))()
         for _ in range(self.dice.randrange(4)):
+            if self.canvas._control.blending and self.dice.random() < 0.3:
+                slider = self.canvas.blend_bar.slider
+                QTest.keyClick(slider, self.dice.choice((Key.Key_Up, Key.Key_Down)))
             self.canvas.blend_bar.slider.setValue(self.dice.choice((0, 100, self.dice.randrange(101))))
         end = self.dice.randrange(3)
         if end < 2:
@@ -166,6 +170,7 @@ class Monkey:
         canvas.set_curves(self.hand.curves)
         if dice.random() < 0.3:
             canvas.set_ghost(dice.choice(self.hand.history))
+            canvas.set_neighbours({name: dice.choice(self.hand.history) for name in "ab"[: dice.randrange(3)]})
 
     def undo(self):
         if len(self.hand.history) > 1 and not self.canvas.busy:

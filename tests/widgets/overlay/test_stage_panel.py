@@ -79,6 +79,26 @@ def test_a_right_click_shows_one_stage_alone_and_again_all_as_before(panel, qtbo
     assert panel.overlay._shown == panel.shown() == before
 
 
+@pytest.mark.parametrize("number", range(1, 7))
+def test_shift_alt_and_a_number_show_one_stage_alone_and_again_all_as_before(panel, qtbot, number):
+    panel.activateWindow()
+    qtbot.waitUntil(panel.isActiveWindow)
+    for shown in ({LAYERS[number - 1].name}, FIRST):
+        qtbot.keyClick(panel.overlay, Qt.Key(Qt.Key.Key_0 + number), ALT | Qt.KeyboardModifier.ShiftModifier)
+        qtbot.waitUntil(lambda shown=shown: panel.overlay._shown == panel.shown() == shown)
+
+
+def test_alt_click_and_s_show_one_stage_alone_too(panel, qtbot):
+    qtbot.mouseClick(chip(panel, "blue"), LEFT, ALT)
+    assert panel.overlay._shown == panel.shown() == {"blue"}
+    qtbot.keyClick(chip(panel, "red"), Qt.Key.Key_S)
+    assert panel.overlay._shown == panel.shown() == {"red"}
+    qtbot.keyClick(chip(panel, "red"), Qt.Key.Key_S)
+    assert panel.shown() == FIRST
+    qtbot.keyClick(chip(panel, "red"), Qt.Key.Key_Space)
+    assert panel.shown() == FIRST - {"red"}
+
+
 def test_a_stage_that_was_off_can_be_alone_and_what_was_shown_comes_back(panel, qtbot):
     qtbot.mouseClick(chip(panel, "green"), RIGHT)
     assert panel.shown() == {"green"}

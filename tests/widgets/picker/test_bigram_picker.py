@@ -170,7 +170,7 @@ def test_the_open_bigram_still_shows_that_it_is_in_the_sentence(picker):
 
 
 def test_a_dot_marks_the_characters_own(picker):
-    bottom_right = (picker.grid.cell - 4, picker.grid.cell - 4)
+    bottom_right = (picker.grid.cell.width() - 4, picker.grid.cell.height() - 4)
     assert colour(picker, F_AH, bottom_right) == theme.STATUS_COLOURS["empty"]
     picker.set_overridden({F_AH})
     assert colour(picker, F_AH, bottom_right) == theme.BRIGHT
@@ -189,17 +189,20 @@ def test_the_names_of_the_open_row_and_column_stand_out(picker):
     row = picker.grid.verticalHeader().viewport().grab().toImage()
     at = picker.grid.rect_of(F_AH).center().y()
     assert row.pixelColor(2, at) == theme.CHECKED
-    assert row.pixelColor(2, at - picker.grid.cell) == theme.WINDOW
+    assert row.pixelColor(2, at - picker.grid.cell.height()) == theme.WINDOW
     column = picker.grid.horizontalHeader().viewport().grab().toImage()
     assert column.pixelColor(picker.grid.rect_of(F_AH).x() + 1, 1) == theme.CHECKED
 
 
-@pytest.mark.parametrize(("width", "height", "cell"), [(300, 420, 12), (408, 620, 17), (900, 900, 24)])
-def test_cells_are_square_and_grow_with_the_dock(qtbot, width, height, cell):
+@pytest.mark.parametrize(
+    ("width", "height", "cell"),
+    [(300, 420, (12, 12)), (408, 620, (17, 17)), (408, 470, (17, 14)), (700, 480, (31, 16)), (900, 900, (41, 28))],
+)
+def test_cells_fill_the_width_and_grow_with_the_dock(qtbot, width, height, cell):
     picker = show(qtbot, width, height)
-    assert picker.grid.cell == cell
-    rect = picker.grid.rect_of(F_AH)
-    assert rect.width() == rect.height() == cell - 1
+    assert picker.grid.cell.toTuple() == pytest.approx(cell, abs=1)
+    assert picker.grid.rect_of(F_AH).size().toTuple() == (picker.grid.cell.width() - 1, picker.grid.cell.height() - 1)
+    assert picker.grid.width() - picker.grid.rect_of(("ah", "bmp")).right() - picker.grid.verticalHeader().width() < 23
     assert not picker.grid.horizontalScrollBar().isVisible()
     assert not picker.grid.verticalScrollBar().isVisible()
 
@@ -333,6 +336,10 @@ def test_the_order_menu_reorders_both_sides_and_keeps_the_open_bigram(picker, pi
     assert picker.current == F_AH
     assert picker.grid.rect_of(("bmp", "bmp")).y() == 0
     assert picks == []
+    picker.set_orders({"Table 1": COMMON[1:], "Reversed": COMMON[:0:-1]})  # another set has the same order again
+    assert (picker.order_name, picker.grid.pairs.phonemes) == ("Reversed", COMMON[:0:-1])
+    picker.set_order("no such order")
+    assert picker.order_name == "Reversed"
 
 
 def test_the_coverage_bar_says_and_shows_how_much(picker):
