@@ -37,25 +37,25 @@ def test_every_pose_of_the_crab_is_drawn_from_two_sides(tmp_path, capsys):
 
 def test_all_our_characters_on_one_page(tmp_path, capsys):
     out = tmp_path / "all.png"
-    assert main(["contact-sheet", "all", "--out", str(out), "--size", "48x48"]) == 0
+    assert main(["contact-sheet", "all", "--out", str(out), "--size", "64x64"]) == 0
     assert capsys.readouterr() == (f"5 faces in {out}\n", "")
     with Image.open(out) as picture:
-        assert picture.size == (10 * 52 - 4, 5 * 74)
+        assert picture.size == (10 * 68 - 4, 5 * 90)
         page = np.asarray(picture.convert("RGB"), int)
     for row in range(5):
-        cells = {page[74 * row : 74 * row + 48, 52 * x : 52 * x + 48].tobytes() for x in range(10)}
+        cells = {page[90 * row : 90 * row + 64, 68 * x : 68 * x + 64].tobytes() for x in range(10)}
         assert len(cells) == 10, "no two poses look alike, those of the tongue neither"
-        label = page[74 * row + 48 : 74 * row + 74]
+        label = page[90 * row + 64 : 90 * row + 90]
         assert (label.min(axis=-1) > 120).sum() > 60
 
 
 def test_portraits_of_all(tmp_path):
     out = tmp_path / "faces.png"
-    assert main(["contact-sheet", "all", "--portraits", "--out", str(out), "--size", "48x40"]) == 0
+    assert main(["contact-sheet", "all", "--portraits", "--out", str(out), "--size", "80x64"]) == 0
     with Image.open(out) as picture:
-        assert picture.size == (5 * 48, 40)
+        assert picture.size == (5 * 80, 64)
         page = np.asarray(picture.convert("RGB"), int)
-    assert (page[:, -48:, 0] > page[:, -48:, 2] + 100).mean() > 0.1, "the crab comes last"
+    assert (page[:, -80:, 0] > page[:, -80:, 2] + 100).mean() > 0.1, "the crab comes last"
 
 
 def test_what_is_shown_of_a_face():
