@@ -106,12 +106,13 @@ def make_parser() -> Parser:
         "draw every pose of a face, in front and three-quarter view, with its name",
         "lipstitch contact-sheet ada --out sheet.png",
     )
-    sheet.add_argument("face", metavar="FACE", help=_FACE)
+    sheet.add_argument("face", metavar="FACE", help=f"{_FACE}; or all: our characters together")
     sheet.add_argument("--out", type=Path, required=True, metavar="FILE", help="the picture, .png")
     sheet.add_argument("--curves", type=Path, metavar="FILE", help="the curve set whose poses are shown")
     sheet.add_argument(
         "--size", type=_size, default=(240, 240), metavar="WxH", help="pixels of each face (default 240x240)"
     )
+    sheet.add_argument("--portraits", action="store_true", help="with all: one picture of each, speaking")
 
     shot = command(
         "screenshot",
