@@ -75,7 +75,7 @@ def run_all_checks(environment: dict[str, str]) -> int:
         "style": ["ruff", "check", "."],
         "format": ["ruff", "format", "--check", "."],
         "types": ["mypy"],
-        "tests": ["pytest"],
+        "tests": ["pytest", "-n", "auto", "--dist", "loadfile"],  # a file stays in one process
     }.items():
         print(f"── {title}", flush=True)
         if subprocess.call([PYTHON, "-m", *command], cwd=ROOT, env=environment):

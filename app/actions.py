@@ -1,89 +1,175 @@
-"""Menus and shortcuts: every command of the window by name."""
+"""Every command of the window by name. A new one is one line here, in the place of its menu; wiring connects it."""
 
 from __future__ import annotations
 
-from PySide6.QtGui import QAction, QActionGroup, QKeySequence, QUndoStack
+from PySide6.QtGui import QActionGroup, QUndoStack
 from PySide6.QtWidgets import QMainWindow
 
 from widgets import theme
+from widgets.canvas.keymaps import KEYMAPS, NEUTRAL
 
-_Keys = QKeySequence.StandardKey
+from .menus import Registry
 
 
 class Actions:
-    """The window's actions; wiring connects them."""
+    """The window's actions, menu by menu."""
 
     def __init__(self, window: QMainWindow, undo_stack: QUndoStack) -> None:
         self._window = window
-        tr = window.tr
-        self.new = self._action(tr("&New"), _Keys.New, tr("Start from the English set, without a file"))
-        self.new_empty = self._action(tr("New &Empty Set"), None, tr("Start with 441 empty bigrams"))
-        self.open = self._action(tr("&Open…"), _Keys.Open, tr("Open a curve set"))
-        self.save = self._action(tr("&Save"), _Keys.Save, tr("Save the curve set"))
-        self.save_as = self._action(tr("Save &As…"), "Ctrl+Shift+S", tr("Save the curve set in another file"))
-        self.export = self._action(
-            tr("&Export Curve Set…"), "Ctrl+E", tr("Write the curve set as JSON for other programs")
+        self._tr = window.tr
+        self.registry = Registry(window.menuBar())
+        self._file()
+        self._edit(undo_stack)
+        self._view()
+        self._bigram()
+        self._sentence()
+        self._playback()
+        self._tools()
+        self._help()
+
+    @property
+    def keymap(self) -> str:
+        """The canvas's keymap that is chosen."""
+        chosen = self.keymaps.checkedAction()
+        return str(chosen.data()) if chosen is not None else NEUTRAL
+
+    def _file(self) -> None:
+        tr, menu = self._tr, self.registry.menu(self._tr("&File"))
+        self.file_menu = menu
+        self.new = menu.add("file.new", tr("&New"), "Ctrl+N", tr("Start from the English set, without a file"))
+        self.new_empty = menu.add("file.new-empty", tr("New &Empty Set"), (), tr("Start with 441 empty bigrams"))
+        self.new_on_base = menu.add(
+            "file.new-on-base",
+            tr("New &Character Set…"),
+            (),
+            tr("Start a set that stores only what differs from another"),
         )
-        self.export_weights = self._action(
-            tr("Export &Weights…"), "Ctrl+Shift+E", tr("Write this sentence's weights, frame by frame, as JSON or CSV")
+        self.open = menu.add("file.open", tr("&Open…"), "Ctrl+O", tr("Open a curve set"))
+        self.open_face = menu.add(
+            "file.open-face", tr("Open &Face…"), "Ctrl+Shift+O", tr("Show a .glb, .gltf or .vrm of yours")
         )
-        self.quit = self._action(tr("&Quit"), "Ctrl+Q", tr("Close Lipstitch"))
-        self.undo = undo_stack.createUndoAction(window, tr("&Undo"))
-        self.undo.setShortcut(_Keys.Undo)
+        self.open_face_folder = menu.add(
+            "file.open-face-folder", tr("Open Face Fol&der…"), (), tr("Show a folder of .obj poses")
+        )
+        self.new_set_for_face = menu.add(
+            "file.new-set-for-face",
+            tr("New Curve Set for This Face's &Poses"),
+            (),
+            tr("Start an empty set whose poses are the face's own shapes"),
+        )
+        menu.line()
+        self.save = menu.add("file.save", tr("&Save"), "Ctrl+S", tr("Save the curve set"))
+        self.save_as = menu.add(
+            "file.save-as", tr("Save &As…"), "Ctrl+Shift+S", tr("Save the curve set in another file")
+        )
+        self.restore = menu.add(
+            "file.restore", tr("&Restore a Backup…"), (), tr("Go back to what was saved before, as one undo step")
+        )
+        menu.line()
+        self.import_script = menu.add(
+            "file.import", tr("&Import…"), "Ctrl+Shift+I", tr("Take a set from a SmartBody diphone script")
+        )
+        self.export = menu.add(
+            "file.export", tr("E&xport Curve Set…"), "Ctrl+E", tr("Write the curve set as JSON for other programs")
+        )
+        self.export_weights = menu.add(
+            "file.export-weights",
+            tr("Export &Weights…"),
+            "Ctrl+Shift+E",
+            tr("Write this sentence's weights, frame by frame, as JSON or CSV"),
+        )
+        menu.line()
+        self.quit = menu.add("file.quit", tr("&Quit"), "Ctrl+Q", tr("Close Lipstitch"))
+
+    def _edit(self, undo_stack: QUndoStack) -> None:
+        tr, menu = self._tr, self.registry.menu(self._tr("&Edit"))
+        self.edit_menu = menu
+        self.undo = menu.put("edit.undo", undo_stack.createUndoAction(self._window, tr("&Undo")), "Ctrl+Z")
         self.undo.setIcon(theme.icon("undo"))
-        self.redo = undo_stack.createRedoAction(window, tr("&Redo"))
-        self.redo.setShortcuts([QKeySequence(_Keys.Redo), QKeySequence("Ctrl+Y")])
-        self.redo.setIcon(theme.icon("redo"))
-        self.find = self._action(tr("&Find Bigram"), _Keys.Find, tr("Type two phones or a word"))
-        self.sentence = self._action(tr("&Type a Sentence"), "Ctrl+L", tr("Go to the sentence"))
-        self.play = self._action(tr("&Play or Pause the Sentence"), "F5", tr("Play or pause the sentence"))
-        self.play_bigram = self._action(tr("Play the &Bigram Alone"), "F6", tr("Play or stop the open bigram"))
-        self.to_start = self._action(tr("To the &Start"), "Ctrl+Home", tr("Go to the start of the sentence"))
-        self.loop = self._action(tr("&Loop"), "Ctrl+Shift+L", tr("Begin again at the end"))
-        self.loop.setCheckable(True)
-        self.reset_view = self._action(tr("See the Face from the &Front"), "Ctrl+0", tr("Reset the face's camera"))
-        self.safe_colours = self._action(
-            tr("&Colours Safe for Every Eye"), None, tr("Stage colours that remain apart without full colour vision")
+        self.undo.setStatusTip(tr("Take the last change back"))
+        self.redo = menu.put(
+            "edit.redo", undo_stack.createRedoAction(self._window, tr("&Redo")), ("Ctrl+Shift+Z", "Ctrl+Y")
         )
-        self.safe_colours.setCheckable(True)
-        self.lively = self._action(tr("&Blink"), None, tr("Quiet life of the face beside the speech"))
-        self.lively.setCheckable(True)
-        self.lively.setChecked(True)
-        self.default_layout = self._action(tr("Reset &Layout"), None, tr("Put all docks back in their places"))
-        self.keymaps = QActionGroup(window)
-        for name, title in (("neutral", tr("&Neutral")), ("Maya", tr("Like &Maya")), ("Blender", tr("Like &Blender"))):
-            keymap = QAction(title, self.keymaps, checkable=True, checked=name == "neutral")
-            keymap.setData(name)
-        self.open_face = self._action(tr("Open &Face…"), "Ctrl+Shift+O", tr("Show a .glb, .gltf or .vrm of yours"))
-        self.open_face_folder = self._action(tr("Open Face Fol&der…"), None, tr("Show a folder of .obj poses"))
-        self.about = self._action(tr("&About Lipstitch"), None, "")
-        self._menus()
+        self.redo.setIcon(theme.icon("redo"))
+        self.redo.setStatusTip(tr("Make the change again that was taken back"))
+        menu.line()
+        keys = menu.submenu(tr("&Keys of the Canvas"))
+        self.keymaps: QActionGroup = keys.choice()
+        titles = {NEUTRAL: tr("&Neutral"), "Maya": tr("Like &Maya"), "Blender": tr("Like &Blender")}
+        for name in KEYMAPS:
+            action = keys.add(f"keymap.{name.lower()}", titles[name], checked=name == NEUTRAL)
+            action.setData(name)
+            self.keymaps.addAction(action)
+        self.shortcuts = menu.add(
+            "edit.shortcuts", tr("Keyboard &Shortcuts…"), "Ctrl+Alt+K", tr("See and change the keys of every command")
+        )
 
-    def _action(self, text: str, keys: QKeySequence.StandardKey | str | None, tip: str) -> QAction:
-        action = QAction(text, self._window)
-        if keys is not None:
-            action.setShortcut(QKeySequence(keys))
-        if tip:
-            action.setStatusTip(tip)
-            action.setToolTip(tip)
-        return action
-
-    def _menus(self) -> None:
-        bar = self._window.menuBar()
-        tr = self._window.tr
-        entries: list[tuple[str, list[QAction | None]]] = [
-            (tr("&File"), [self.new, self.new_empty, self.open, None, self.save, self.save_as, None,
-                           self.export, self.export_weights, None, self.quit]),
-            (tr("&Edit"), [self.undo, self.redo]),
-            (tr("&Bigram"), [self.find, self.play_bigram]),
-            (tr("&Playback"), [self.sentence, self.play, self.to_start, self.loop]),
-            (tr("&View"), [self.reset_view, self.safe_colours, self.lively, self.default_layout]),
-        ]  # fmt: skip
-        for title, actions in entries:
-            menu = bar.addMenu(title)
-            for action in actions:
-                menu.addSeparator() if action is None else menu.addAction(action)
+    def _view(self) -> None:
+        tr, menu = self._tr, self.registry.menu(self._tr("&View"))
         self.view_menu = menu
-        menu.addMenu(tr("Canvas &Keys")).addActions(self.keymaps.actions())
-        self.characters_menu = menu.addMenu(tr("&Character"))
-        bar.addMenu(tr("&Help")).addAction(self.about)
+        self.characters_menu = menu.submenu(tr("&Character"))
+        self.reset_view = menu.add(
+            "view.front", tr("See the Face from the &Front"), "Ctrl+0", tr("Reset the face's camera")
+        )
+        self.lively = menu.add(
+            "view.blink", tr("&Blink"), (), tr("Quiet life of the face beside the speech"), checked=True
+        )
+        menu.line()
+        self.safe_colours = menu.add(
+            "view.safe-colours",
+            tr("Co&lours Safe for Every Eye"),
+            (),
+            tr("Stage colours that remain apart without full colour vision"),
+            checked=False,
+        )
+        self.default_layout = menu.add(
+            "view.reset-layout", tr("&Reset Layout"), (), tr("Put all docks back in their places")
+        )
+        self.docks_menu = menu.submenu(tr("&Docks"))
+
+    def _bigram(self) -> None:
+        tr, menu = self._tr, self.registry.menu(self._tr("&Bigram"))
+        self.bigram_menu = menu
+        self.find = menu.add("bigram.find", tr("&Find Bigram"), "Ctrl+F", tr("Type two phones or a word"))
+        self.play_bigram = menu.add(
+            "bigram.play", tr("&Play the Bigram Alone"), "Shift+F5", tr("Play or stop the open bigram")
+        )
+        menu.line()
+        self.swapped = menu.add(
+            "bigram.swapped", tr("Open the &Swapped Pair"), "Ctrl+Shift+B", tr("From f-ah to ah-f and back")
+        )
+        self.next_bigram = menu.add(
+            "bigram.next", tr("&Next in the Sentence"), "Alt+Right", tr("The sentence's next bigram")
+        )
+        self.previous_bigram = menu.add(
+            "bigram.previous", tr("P&revious in the Sentence"), "Alt+Left", tr("The sentence's previous bigram")
+        )
+
+    def _sentence(self) -> None:
+        tr, menu = self._tr, self.registry.menu(self._tr("&Sentence"))
+        self.sentence_menu = menu
+        self.sentence = menu.add("sentence.type", tr("&Type a Sentence"), "Ctrl+L", tr("Go to the sentence"))
+
+    def _playback(self) -> None:
+        tr, menu = self._tr, self.registry.menu(self._tr("&Playback"))
+        self.playback_menu = menu
+        self.play = menu.add("playback.play", tr("&Play or Pause"), "F5", tr("Play or pause the sentence"))
+        self.to_start = menu.add(
+            "playback.start", tr("To the &Start"), "Ctrl+Home", tr("Go to the start of the sentence")
+        )
+        self.loop = menu.add("playback.loop", tr("&Loop"), "Ctrl+Shift+L", tr("Begin again at the end"), checked=False)
+
+    def _tools(self) -> None:
+        tr, menu = self._tr, self.registry.menu(self._tr("&Tools"))
+        self.tools_menu = menu
+        self.palette = menu.add(
+            "tools.palette",
+            tr("&Command Palette…"),
+            "Ctrl+K",
+            tr("Any command, bigram or pinned sentence by a few of its letters"),
+        )
+
+    def _help(self) -> None:
+        tr, menu = self._tr, self.registry.menu(self._tr("&Help"))
+        self.help_menu = menu
+        self.about = menu.add("help.about", tr("&About Lipstitch"))

@@ -6,11 +6,11 @@ document, which extends the newest command.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 from PySide6.QtGui import QUndoCommand
 
-from core_pipeline.curve_set import Bigram
+from core_pipeline.curve_set import Bigram, CurveSet
 from core_pipeline.phonemes import Pair
 from core_pipeline.settings import Settings
 
@@ -40,6 +40,48 @@ class EditBigram(QUndoCommand):
     def undo(self) -> None:
         """Put the old bigram back."""
         self._apply(self.pair, self.before)
+
+
+class EditBigrams(QUndoCommand):
+    """Many bigrams before and after; None means there was none."""
+
+    def __init__(
+        self,
+        apply: Callable[[Mapping[Pair, Bigram | None]], None],
+        before: Mapping[Pair, Bigram | None],
+        after: Mapping[Pair, Bigram | None],
+        label: str,
+    ) -> None:
+        super().__init__(label)
+        self._apply = apply
+        self.before = before
+        self.after = after
+
+    def redo(self) -> None:
+        """Put the new bigrams in place."""
+        self._apply(self.after)
+
+    def undo(self) -> None:
+        """Put the old bigrams back."""
+        self._apply(self.before)
+
+
+class ChangeSet(QUndoCommand):
+    """The whole set before and after: a restored backup, a merge, another phoneme set."""
+
+    def __init__(self, apply: Callable[[CurveSet], None], before: CurveSet, after: CurveSet, label: str) -> None:
+        super().__init__(label)
+        self._apply = apply
+        self.before = before
+        self.after = after
+
+    def redo(self) -> None:
+        """Put the new set in place."""
+        self._apply(self.after)
+
+    def undo(self) -> None:
+        """Put the old set back."""
+        self._apply(self.before)
 
 
 class ChangeSettings(QUndoCommand):

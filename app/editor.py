@@ -49,7 +49,7 @@ class Editor(QObject):
         self.speaker = Speaker()
         self.speech = SpeechWorker(self.speaker, self)
         self._search = SpeechWorker(self.speaker, self)
-        self.files = FileActions(self.window, self.document, self.session, state)
+        self.files = FileActions(self.window, self.document, state)
         self.wiring = Wiring(
             Parts(
                 document=self.document,
@@ -61,6 +61,7 @@ class Editor(QObject):
                 state=state,
                 speech=self.speech,
                 search=self._search,
+                speaker=self.speaker,
             ),
             self,
         )
@@ -73,7 +74,7 @@ class Editor(QObject):
     def close(self) -> None:
         """Stop threads and timers, remember the layout."""
         self.wiring.remember()
-        self.files.autosave.finish()
+        self.files.close()
         self.faces.close()
         self.speech.stop()
         self._search.stop()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import QByteArray, Qt, Signal
+from PySide6.QtCore import QByteArray, QEvent, Qt, Signal
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeyEvent, QPalette, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QDockWidget,
@@ -26,13 +26,14 @@ from widgets.canvas.curve_panel import CurvePanel
 from widgets.canvas.pose_list import PoseList
 from widgets.overlay.stage_panel import StagePanel
 from widgets.picker.bigram_picker import BigramPicker
-from widgets.picker.weak_list import WeakList
+from widgets.picker.weak_panel import WeakPanel
 from widgets.preview.face_view import FaceView
 from widgets.preview.mapping_panel import MappingPanel
 from widgets.preview.weights_bars import WeightsBars
 from widgets.sentence_bar import SentenceBar
 from widgets.settings.settings_panel import SettingsPanel
 from widgets.transport import Transport
+from widgets.window.keymap_question import KeymapQuestion
 
 from .actions import Actions
 from .document import Document
@@ -48,10 +49,12 @@ class MainWindow(QMainWindow):
 
     play_wanted()  Space, where nothing that has the focus wants it
     dropped(Path)  a file or folder was dropped on the window
+    let_go()       a key was released, or another window came to the front
     """
 
     play_wanted = Signal()
     dropped = Signal(Path)
+    let_go = Signal()
 
     def __init__(self, document: Document) -> None:
         super().__init__()
@@ -64,7 +67,8 @@ class MainWindow(QMainWindow):
         self.may_close: Callable[[], bool] = lambda: True
 
         self.picker = BigramPicker()
-        self.weak_list = WeakList()
+        self.weak_panel = WeakPanel()
+        self.weak_list = self.weak_panel.list
         self.header = CanvasHeader()
         self.bigram_transport = BigramTransport()
         self.pose_list = PoseList()
@@ -77,6 +81,7 @@ class MainWindow(QMainWindow):
         self.stage_panel = StagePanel()
         self.transport = Transport()
         self.sentence_bar = SentenceBar()
+        self.keymap_question = KeymapQuestion()
 
         self.actions_ = Actions(self, document.undo_stack)
         self._toolbar()
@@ -112,6 +117,18 @@ class MainWindow(QMainWindow):
             self.play_wanted.emit()
         else:
             super().keyPressEvent(event)
+
+    def keyReleaseEvent(self, event: QKeyEvent) -> None:
+        """Qt's hook: what lasts while a key is held ends."""
+        super().keyReleaseEvent(event)
+        if not event.isAutoRepeat():
+            self.let_go.emit()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Qt's hook: a key let go in another window is never heard of here."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.ActivationChange and not self.isActiveWindow():
+            self.let_go.emit()
 
     def showEvent(self, event: QShowEvent) -> None:
         """Give the docks their first sizes once the window has its own."""
@@ -185,38 +202,38 @@ class MainWindow(QMainWindow):
         column = QVBoxLayout(centre)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
+        column.addWidget(self.keymap_question)
         column.addWidget(head)
         column.addWidget(body, 1)
         centre.setMinimumSize(360, 180)
         self.setCentralWidget(centre)
 
     def _docks(self) -> None:
-        self.bigrams_dock = self._dock(self.tr("Bigrams"), self.picker, _Area.LeftDockWidgetArea)
-        self.weak_dock = self._dock(self.tr("Weak bigrams"), self.weak_list, _Area.LeftDockWidgetArea)
-        self.preview_dock = self._dock(self.tr("Preview"), self.face_view, _Area.RightDockWidgetArea)
-        self.weights_dock = self._dock(self.tr("Pose weights"), self.weights, _Area.RightDockWidgetArea)
-        self.settings_dock = self._dock(self.tr("Pipeline settings"), self.settings_panel, _Area.RightDockWidgetArea)
-        self.stages_dock = self._dock(self.tr("Pipeline stages"), self.stage_panel, _Area.BottomDockWidgetArea)
-        self.mapping_dock = self._dock(self.tr("Face mapping"), self.mapping_panel, _Area.RightDockWidgetArea)
+        left, right, below = _Area.LeftDockWidgetArea, _Area.RightDockWidgetArea, _Area.BottomDockWidgetArea
+        self.bigrams_dock = self.add_dock("bigrams", self.tr("Bigrams"), self.picker, left)
+        self.weak_dock = self.add_dock("weak", self.tr("Weak bigrams"), self.weak_panel, left)
+        self.preview_dock = self.add_dock("preview", self.tr("Preview"), self.face_view, right)
+        self.weights_dock = self.add_dock("weights", self.tr("Pose weights"), self.weights, right)
+        self.settings_dock = self.add_dock("settings", self.tr("Pipeline settings"), self.settings_panel, right)
+        self.stages_dock = self.add_dock("stages", self.tr("Pipeline stages"), self.stage_panel, below)
+        self.mapping_dock = self.add_dock("mapping", self.tr("Face mapping"), self.mapping_panel, right)
         self.tabifyDockWidget(self.weights_dock, self.settings_dock)
         self.tabifyDockWidget(self.settings_dock, self.mapping_dock)
         self.mapping_dock.hide()
         self.weights_dock.raise_()
-        menu = self.actions_.view_menu
-        menu.addSeparator()
-        for dock in self.findChildren(QDockWidget):
-            show = dock.toggleViewAction()
-            show.triggered.connect(lambda on, dock=dock: dock.raise_() if on else None)  # before others of its place
-            menu.addAction(show)
 
-    def _dock(self, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
+    def add_dock(self, name: str, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
+        """A dock with a switch in View → Docks; `name` is what the layout is remembered by."""
         dock = QDockWidget(title)
-        dock.setObjectName(title)
+        dock.setObjectName(name)
         dock.setWidget(widget)
         dock.setFeatures(
             QDockWidget.DockWidgetFeature.DockWidgetMovable | QDockWidget.DockWidgetFeature.DockWidgetClosable
         )
         self.addDockWidget(area, dock)
+        show = self.actions_.docks_menu.put(f"dock.{name}", dock.toggleViewAction())
+        show.setStatusTip(self.tr("Show or hide this dock"))
+        show.triggered.connect(lambda on: dock.raise_() if on else None)  # before others of its place
         return dock
 
     def _status(self) -> None:

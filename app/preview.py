@@ -1,32 +1,31 @@
-"""What the face shows: the sentence at a moment, or one bigram alone, seen from where the user turned it."""
+"""What the faces show: the sentence at a moment, or one bigram alone, seen from where the user turned them."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtGui import QImage
 
-from core_pipeline.faces import idle
 from core_pipeline.faces.face import Face
+from core_pipeline.faces.looks import Angle, Look
 from core_pipeline.faces.view import View
 from core_pipeline.phonemes import Pair
 
 from .audio_output import AudioOutput
+from .cast import Actor, Cast, Source, Weights
 from .player import Player
 from .render_worker import RenderWorker
 from .session import Session
+from .turntable import Turntable
 
 #: A bigram plays over this long by default, in seconds (two phones of average length).
 BIGRAM_SECONDS = 0.4
 #: Seconds between the pictures of a blink when nothing else moves.
 BLINK_FRAME = 0.033
-#: From the side, in degrees: there the open half shows the tongue.
-CUTAWAY_YAW = 65.0
 #: While a key is dragged the face is drawn this often: software OpenGL takes every core, and the hand comes first.
 GESTURE_SECONDS = 0.04
 
@@ -61,10 +60,8 @@ class Preview(QObject):
         self._bigram_time: float | None = None  # normalised; None: the sentence is shown
         self._held: dict[str, float] = {}  # pose → weight, shown while nothing plays and nothing is edited
         self._size = (512, 512)
-        self._face: Face | None = None
-        self._view = View()
-        self._matrix: NDArray[np.float32] | None = None
-        self._matrix_poses: tuple[str, ...] = ()
+        self._cast = Cast()
+        self._look = Look()
         self._ms: list[float] = []
         self.worker = RenderWorker(self)
         self.worker.frame.connect(self._frame)
@@ -77,6 +74,8 @@ class Preview(QObject):
         self._life = QTimer(self)  # wakes a face at rest for its next blink
         self._life.setSingleShot(True)
         self._life.timeout.connect(self.refresh)
+        self.turntable = Turntable(parent=self)
+        self.turntable.turned.connect(self._turned)
         self._asked = 0.0  # when the face was last asked for, on the monotonic clock
         session.stages_changed.connect(self._stages_changed)
         self.player.time_changed.connect(self._sentence_time)
@@ -91,6 +90,7 @@ class Preview(QObject):
     def stop(self) -> None:
         """Stop playing and drawing; waits for the thread."""
         self._life.stop()
+        self.turntable.set_on(False)
         self.player.pause()
         self.bigram_player.pause()
         self.output.close()
@@ -98,20 +98,20 @@ class Preview(QObject):
 
     # ── what is shown ────────────────────────────────────────────────────────────────────────────
 
-    def set_face(self, face: Face) -> None:
-        """Show another character from where it wants to be seen."""
-        self._face = face
-        self._view = View.of(face.camera)
-        self._matrix = None
-        self.worker.set_face(face)
+    def set_actors(self, actors: Sequence[Actor]) -> None:
+        """Show these faces side by side, from left to right; one that was shown before is seen as before."""
+        self._cast.set_actors(actors)
         self.refresh()
 
+    def set_face(self, face: Face) -> None:
+        """Show another character in the first place."""
+        self.set_actors((Actor(face), *self.actors[1:]))
+
     def set_pose_map(self, poses: Mapping[str, Mapping[str, float]]) -> None:
-        """Let the same character make its poses from other shapes, seen as before: pose → {shape: amount}."""
-        if self._face is not None:
-            self._face = replace(self._face, pose_map=poses)
-            self._matrix = None
-            self.refresh()
+        """Let the first character make its poses from other shapes, seen as before: pose → {shape: amount}."""
+        if self.actors:
+            first, *others = self.actors
+            self.set_actors((replace(first, face=replace(first.face, pose_map=poses)), *others))
 
     def show_pose(self, weights: Mapping[str, float]) -> None:
         """Hold some poses, pose → weight, until something plays, is scrubbed or edited; {} lets go at once."""
@@ -125,9 +125,19 @@ class Preview(QObject):
         self.refresh()
 
     @property
+    def actors(self) -> tuple[Actor, ...]:
+        """Who is in the picture, from left to right."""
+        return self._cast.actors
+
+    @property
+    def views(self) -> tuple[View, ...]:
+        """Where each actor is seen from."""
+        return self._cast.views
+
+    @property
     def face(self) -> Face | None:
-        """The character shown."""
-        return self._face
+        """The first character."""
+        return self.actors[0].face if self.actors else None
 
     @property
     def shows_bigram(self) -> bool:
@@ -195,32 +205,40 @@ class Preview(QObject):
         self._lively = on
         self.refresh()
 
-    # ── camera ───────────────────────────────────────────────────────────────────────────────────
+    # ── camera and light ─────────────────────────────────────────────────────────────────────────
+
+    def set_look(self, look: Look) -> None:
+        """Another background and light."""
+        self._look = look
+        self.refresh()
+
+    def set_angle(self, angle: Angle) -> None:
+        """See all faces from there."""
+        self._cast.set_angle(angle)
+        self.refresh()
 
     def orbit(self, dx: float, dy: float) -> None:
-        """Turn the face by a drag in pixels."""
-        self._view = self._view.orbited(dx, dy)
+        """Turn the faces by a drag in pixels."""
+        self._cast.orbit(dx, dy)
         self.refresh()
 
     def zoom(self, steps: float) -> None:
         """Come nearer by notches of the wheel."""
-        self._view = self._view.zoomed(steps)
+        self._cast.zoom(steps)
         self.refresh()
 
     def pan(self, dx: float, dy: float) -> None:
-        """Shift the face by a drag in pixels."""
-        self._view = self._view.panned(dx, dy, self._size[1])
+        """Shift the faces by a drag in pixels."""
+        self._cast.pan(dx, dy, self._size)
         self.refresh()
 
-    def reset_view(self) -> None:
-        """See the face from the front again."""
-        self._view = self._view.reset()
+    def cut_away(self, index: int, on: bool) -> None:
+        """Hide the near half of one head and look in from the side, so that the tongue can be seen."""
+        self._cast.cut_away(index, on)
         self.refresh()
 
-    def cut_away(self, on: bool) -> None:
-        """Hide the near half of the head and look in from the side, so that the tongue can be seen."""
-        yaw = CUTAWAY_YAW if on else self._view.home.yaw
-        self._view = replace(self._view, cutaway=on, yaw=yaw)
+    def _turned(self, degrees: float) -> None:
+        self._cast.turn(degrees)
         self.refresh()
 
     def resize(self, width: int, height: int) -> None:
@@ -262,37 +280,35 @@ class Preview(QObject):
 
     def _show(self) -> None:
         self._turn.stop()
-        poses = self._session.curve_set.poses
-        if self.player.playing or self.bigram_player.playing:
+        playing = self.player.playing or self.bigram_player.playing
+        if playing:
             self.show_pose({})
-        if self._held:
-            seconds = self.player.time
-            weights = np.array([self._held.get(pose, 0.0) for pose in poses])
-        elif self._bigram_time is not None and self.pair is not None:
-            seconds = self._bigram_time
-            weights = self._session.bigram_weights_at(self.pair, self._bigram_time)
-        else:
-            seconds = self.player.time
-            weights = self._session.weights_at(seconds)
-        self.weights_changed.emit(weights)
-        if self._face is None:
+        shown = self._weights(self._session)
+        self.weights_changed.emit(shown)
+        if not self.actors:
             return
         self._asked = time.monotonic()
-        if self._matrix is None or self._matrix_poses != poses:  # another set may have as many poses, of other names
-            self._matrix, self._matrix_poses = self._face.retarget(poses), poses
-        amounts = weights.astype(np.float32) @ self._matrix
-        self._live(amounts)
-        self.worker.request(amounts, self._view, self._size, seconds)
-
-    def _live(self, amounts: NDArray[np.float32]) -> None:
-        """Add what the face does by itself, and wake up again when there is more of it."""
-        if not self._lively or self._face is None:
-            return
+        alone = self.shows_bigram and not self._held
+        seconds = self._bigram_time if alone and self._bigram_time is not None else self.player.time
+        spoken = []
+        for actor in self.actors:
+            source = actor.source if actor.source is not None and not self._held else self._session
+            spoken.append((source.poses, shown if source is self._session else self._weights(source)))
         now = self._clock()
-        playing = self.player.playing or self.bigram_player.playing
-        idle.enliven(amounts, self._face.shapes, now, playing)
-        wait = BLINK_FRAME if idle.blink(now + BLINK_FRAME) else idle.next_blink(now) - now
-        self._life.start(max(1, round(wait * 1000)))
+        figures = self._cast.figures(spoken, now if self._lively else None, playing)
+        if self._lively:
+            self._life.start(max(1, round(self._cast.next_life(now, BLINK_FRAME) * 1000)))
+        self.worker.request(figures, self._size, seconds, self._look)
+
+    def _weights(self, source: Source) -> Weights:
+        """(poses,) of a source now. One without bigrams shows the sentence where a bigram is shown alone."""
+        if self._held:
+            return np.array([self._held.get(pose, 0.0) for pose in source.poses])
+        if self._bigram_time is not None and self.pair is not None:
+            weights = source.bigram_weights_at(self.pair, self._bigram_time)
+            if weights is not None:
+                return weights
+        return source.weights_at(self.player.time)
 
     def _frame(self, image: QImage, _seconds: float, milliseconds: float) -> None:
         self._ms = [*self._ms[-29:], milliseconds]

@@ -1,20 +1,19 @@
-"""The thread that draws the face, so that the window never waits for pixels: latest wish wins."""
+"""The thread that draws the faces, so that the window never waits for pixels: latest wish wins."""
 
 from __future__ import annotations
 
 import threading
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-import numpy as np
 from PySide6.QtCore import QCoreApplication, QObject, QThread, Signal
 from PySide6.QtGui import QImage
 
 from core_pipeline.errors import UserError
-from core_pipeline.faces.face import Face, Floats
-from core_pipeline.faces.render import FaceRenderer
+from core_pipeline.faces.looks import Look
+from core_pipeline.faces.render import Figure, Renderer
 from core_pipeline.faces.render_context import Platform
-from core_pipeline.faces.view import Background, View
 
 from .gl_platform import make_platform
 
@@ -24,12 +23,10 @@ SETTLE_SECONDS = 0.12
 
 @dataclass(frozen=True, eq=False)
 class _Wish:
-    face: Face
-    amounts: Floats
-    view: View
+    figures: tuple[Figure, ...]
     size: tuple[int, int]
     time: float
-    background: Background
+    look: Look
     full_quality: bool = False
 
 
@@ -51,8 +48,6 @@ class RenderWorker(QThread):
         self.setObjectName("face renderer")
         self._platform = platform if platform is not None else make_platform()
         self._changed = threading.Condition()  # guards everything below
-        self._face: Face | None = None
-        self._background = Background()
         self._wish: _Wish | None = None
         self._last: _Wish | None = None
         self._settle_at = 0.0  # when to draw `_last` again, on the monotonic clock
@@ -69,30 +64,11 @@ class RenderWorker(QThread):
         with self._changed:
             return self._dropped
 
-    def set_face(self, face: Face) -> None:
-        """The face that the next wishes are about. What was wished for the face before is forgotten."""
+    def request(self, figures: Sequence[Figure], size: tuple[int, int], time: float, look: Look | None = None) -> None:
+        """Wish for a picture of these faces: size (w, h) in device pixels, media time in seconds."""
         with self._changed:
-            self._face = face
-            self._wish = self._last = None
-
-    def set_background(self, background: Background) -> None:
-        """What is behind the face from the next wish on."""
-        with self._changed:
-            self._background = background
-
-    def request(self, amounts: Floats, view: View, size: tuple[int, int], time: float) -> None:
-        """Wish for a frame: amounts (k,) of the face's shapes, size (w, h) in device pixels, media time in seconds.
-
-        Without a face nothing happens. ValueError when `amounts` is not for this face.
-        """
-        with self._changed:
-            if self._face is None:
-                return
-            amounts = np.array(amounts, np.float32)
-            if amounts.shape != (len(self._face.shapes),):
-                raise ValueError(f"{len(self._face.shapes)} amounts are needed, not {amounts.shape}")
             self._dropped += self._wish is not None
-            self._wish = _Wish(self._face, amounts, view, size, time, self._background)
+            self._wish = _Wish(tuple(figures), size, time, look or Look())
             self._changed.notify()
 
     def retry(self) -> None:
@@ -112,15 +88,12 @@ class RenderWorker(QThread):
 
     def run(self) -> None:
         """What the thread does; call `start`."""
-        renderer: FaceRenderer | None = None
+        renderer: Renderer | None = None
         while (wish := self._next()) is not None:
             began = time.perf_counter()
             try:
-                if renderer is None:
-                    renderer = FaceRenderer(wish.face, self._platform)
-                elif renderer.face is not wish.face:
-                    renderer.set_face(wish.face)
-                pixels = renderer.frame(wish.amounts, wish.view, wish.size, wish.full_quality, wish.background)
+                renderer = renderer or Renderer(self._platform)
+                pixels = renderer.draw(wish.figures, wish.size, wish.full_quality, wish.look)
             except UserError as error:
                 renderer = None
                 self._fail(wish)
@@ -153,6 +126,6 @@ class RenderWorker(QThread):
     def _fail(self, wish: _Wish) -> None:
         with self._changed:
             self._broken = True
-            if self._wish is None and self._face is wish.face:
+            if self._wish is None:
                 self._wish = wish  # what `retry` draws
             self._last = None

@@ -25,6 +25,11 @@ def english_curves() -> Path:
     return assets() / "curves" / "english.json"
 
 
+def corpus() -> Path:
+    """The folder of our corpus and the table of how often it has each pair."""
+    return assets() / "corpus"
+
+
 def retarget_presets() -> Path:
     """The naming conventions of rigs we know."""
     return assets() / "retarget"

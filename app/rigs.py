@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from core_pipeline.errors import UserError
 from core_pipeline.files import curve_set_json
+from core_pipeline.files.atomic import write_atomically
 from core_pipeline.files.json_text import shown
 from core_pipeline.poses import FACEFX
 
@@ -70,4 +71,18 @@ def tell_face(options: argparse.Namespace) -> int:
         print(f"  {shown(pose)} = {' + '.join(f'{amount:g} {shown(shape)}' for shape, amount in mix.items())}")
     for line in opened.notes:
         print(shown(line, 2000))
+    if options.new_set is not None:
+        _write_new_set(opened, options.new_set)
     return 0
+
+
+def _write_new_set(opened: Opened, out: Path) -> None:
+    from core_pipeline.faces.pose_set import new_curve_set
+
+    if out.suffix.lower() != ".json":
+        raise UserError(f"Cannot write {out}: name the curve set .json.")
+    if out.exists():
+        raise UserError(f"{out} is already there: choose another name, curves are not overwritten.")
+    curve_set = new_curve_set(opened.face)
+    write_atomically(out, curve_set_json.dumps(curve_set))
+    print(f"An empty curve set over {len(curve_set.poses)} poses in {out}.")

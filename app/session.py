@@ -32,6 +32,7 @@ class Session(QObject):
         super().__init__(parent)
         self._curve_set = curve_set
         self._shown = curve_set  # the same, or with the gesture that is under way
+        self._other: CurveSet | None = None
         self._preview: Pair | None = None
         self.utterance: Utterance | None = None
         self.stages: Stages | None = None
@@ -46,6 +47,11 @@ class Session(QObject):
         return self._shown
 
     @property
+    def poses(self) -> tuple[str, ...]:
+        """The poses of the set, in the order of all weights."""
+        return self._shown.poses
+
+    @property
     def in_gesture(self) -> bool:
         """Whether a gesture is being shown that the document does not have yet."""
         return self._preview is not None
@@ -53,7 +59,18 @@ class Session(QObject):
     def set_curve_set(self, curve_set: CurveSet) -> None:
         """Use another set, or the same with an edit; a gesture's preview ends."""
         self._curve_set = self._shown = curve_set
-        self._preview = None
+        self._preview = self._other = None
+        self._want()
+
+    @property
+    def shows_other(self) -> bool:
+        """Whether another set is shown in place of the document's."""
+        return self._other is not None
+
+    def show_other(self, curve_set: CurveSet | None) -> None:
+        """Let another set speak, of the same poses, until None brings the document's back."""
+        self._other = curve_set
+        self._preview, self._shown = None, curve_set if curve_set is not None else self._curve_set
         self._want()
 
     def set_preview(self, pair: Pair, curves: Mapping[str, Curve | None] | None) -> None:

@@ -1,4 +1,4 @@
-"""A curve set: the curves of every bigram, the thing an animator edits (sections 3.1.1 and 3.1.2)."""
+"""A curve set: the curves of every bigram, the thing an animator edits (sections 3.1.1, 3.1.2 and 3.2.4)."""
 
 from __future__ import annotations
 
@@ -6,15 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from .curves import Curve
+from .packed import PackedSet
 from .phonemes import COMMON, SILENCE, TABLE_1, Pair
 from .poses import FACEFX
 from .settings import Settings
-
-if TYPE_CHECKING:
-    from .packed import PackedSet
 
 #: How far the work on a bigram has come.
 STATUSES = ("empty", "suggestion", "draft", "review", "approved")
@@ -24,13 +22,16 @@ STATUSES = ("empty", "suggestion", "draft", "review", "approved")
 class Bigram:
     """The curves of one phone pair, pose → curve, and what is known of them. Read-only.
 
-    extra  fields of the file that this version does not know; they survive saving
+    source  where the curves come from: "authored", "phone parts", a file's name
+    author  who drew them last, "" when nobody said
+    extra   fields of the file that this version does not know; they survive saving
     """
 
     curves: Mapping[str, Curve] = field(default_factory=dict)
     status: str = "draft"
     source: str = "authored"
     note: str = ""
+    author: str = ""
     extra: Mapping[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -55,9 +56,14 @@ class CurveSet:
 
     phonemes      the set's common phonemes; their square is the number of bigrams; `sil` is not listed,
                   though pairs with `sil` may be present
+    bigrams       all that play: this layer's own and, where it has none, those of the set below
     phoneme_map   language phone → common phoneme
-    settings      what the set was made for; None means the preset "Paper"
-    base, extra   kept as read, see core_pipeline/files/curve_set_json.py
+    settings      what this layer was made for; None means those of the set below, or the preset "Paper"
+    base, below   a character's set stores only what differs from its base (section 3.2.4): the base's name, as the
+                  file says it, and the set of that name; both None for a set that stands alone
+    aside         bigrams of phones that are not among `phonemes`: kept in the file, never played
+    authors, provenance   who made the set, and from what
+    extra         fields of the file that this version does not know; they survive saving
     """
 
     name: str = "Untitled"
@@ -68,23 +74,36 @@ class CurveSet:
     phoneme_map: Mapping[str, str] = field(default_factory=lambda: TABLE_1)
     settings: Settings | None = None
     base: str | None = None
+    below: CurveSet | None = None
+    aside: Mapping[Pair, Bigram] = field(default_factory=dict)
+    authors: tuple[str, ...] = ()
+    provenance: str = ""
     extra: Mapping[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "bigrams", MappingProxyType(dict(self.bigrams)))
+        object.__setattr__(self, "aside", MappingProxyType(dict(self.aside)))
 
     @property
     def effective_settings(self) -> Settings:
-        """The set's own settings, or the preset "Paper"."""
-        return self.settings if self.settings is not None else Settings.paper()
+        """The set's own settings, or those of its base, or the preset "Paper"."""
+        if self.settings is not None:
+            return self.settings
+        return self.below.effective_settings if self.below is not None else Settings.paper()
 
     def with_bigram(self, pair: Pair, bigram: Bigram | None) -> CurveSet:
-        """With another bigram at `pair`; None removes it."""
+        """With another bigram at `pair` in this layer; None removes this layer's, so that the base's is back."""
+        return self.with_bigrams({pair: bigram})
+
+    def with_bigrams(self, changes: Mapping[Pair, Bigram | None]) -> CurveSet:
+        """With other bigrams in this layer; None removes this layer's, so that the base's is back."""
         bigrams = dict(self.bigrams)
-        if bigram is None:
-            bigrams.pop(pair, None)
-        else:
-            bigrams[pair] = bigram
+        for pair, bigram in changes.items():
+            plays = self.below.bigrams.get(pair) if bigram is None and self.below is not None else bigram
+            if plays is None:
+                bigrams.pop(pair, None)
+            else:
+                bigrams[pair] = plays
         return replace(self, bigrams=bigrams)
 
     def with_settings(self, settings: Settings) -> CurveSet:
@@ -105,9 +124,38 @@ class CurveSet:
         bigram = self.bigrams.get(pair)
         return "empty" if bigram is None or bigram.is_empty else bigram.status
 
+    # ── layers ───────────────────────────────────────────────────────────────────────────────────
+
+    @cached_property
+    def own(self) -> Mapping[Pair, Bigram]:
+        """What this layer itself holds: everything, unless there is a set below. It is all that is saved."""
+        if self.below is None:
+            return self.bigrams
+        below = self.below.bigrams
+        return {pair: bigram for pair, bigram in self.bigrams.items() if below.get(pair) is not bigram}
+
+    def layer_of(self, pair: Pair) -> str:
+        """The name of the set, this one or one below, whose bigram plays; "" where there is none."""
+        bigram, layer, found = self.bigrams.get(pair), self, ""
+        while bigram is not None and layer.bigrams.get(pair) is bigram:
+            found = layer.name
+            if layer.below is None:
+                break
+            layer = layer.below
+        return found
+
+    def on_base(self, base: str, below: CurveSet) -> CurveSet:
+        """This layer's own bigrams over those of `below`, as far as this set has their phones."""
+        inherited = {pair: bigram for pair, bigram in below.bigrams.items() if self.has_pair(pair)}
+        return replace(self, base=base, below=below, bigrams={**inherited, **self.own})
+
+    def flattened(self) -> CurveSet:
+        """All layers in one set that stands alone, as game engines want it."""
+        return replace(self, base=None, below=None, settings=self.effective_settings)
+
+    # ── for the pipeline ─────────────────────────────────────────────────────────────────────────
+
     @cached_property
     def packed(self) -> PackedSet:
         """All keys in flat arrays, made once per set, for the time-warp."""
-        from .packed import PackedSet
-
         return PackedSet.of(self)

@@ -7,20 +7,18 @@ which normalised time cannot say; such keys carry what the warp needs to place t
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple, Protocol
 from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .curves import Curve
-from .phonemes import SILENCE
-
-if TYPE_CHECKING:
-    from .curve_set import Bigram, CurveSet
+from .phonemes import SILENCE, Pair
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
@@ -95,6 +93,36 @@ def _spread(s: list[float]) -> list[float]:
     return spread
 
 
+class HasCurves(Protocol):
+    """What is packed of a bigram."""
+
+    @property
+    def curves(self) -> Mapping[str, Curve]:
+        """Pose → curve."""
+        ...
+
+    def __hash__(self) -> int: ...
+
+
+class HasBigrams(Protocol):
+    """What is packed of a curve set."""
+
+    @property
+    def phonemes(self) -> tuple[str, ...]:
+        """Without `sil`."""
+        ...
+
+    @property
+    def poses(self) -> tuple[str, ...]:
+        """In the order of the set."""
+        ...
+
+    @property
+    def bigrams(self) -> Mapping[Pair, HasCurves]:
+        """(first, second) → its curves."""
+        ...
+
+
 @dataclass(frozen=True, eq=False)
 class PackedSet:
     """All closed keys of a curve set, one behind the other.
@@ -116,7 +144,7 @@ class PackedSet:
     number: dict[str, int]
 
     @classmethod
-    def of(cls, curve_set: CurveSet) -> PackedSet:
+    def of(cls, curve_set: HasBigrams) -> PackedSet:
         """Pack a set; 441 bigrams take about a millisecond once their curves have been closed."""
         number = {phone: i for i, phone in enumerate(dict.fromkeys((*curve_set.phonemes, SILENCE)))}
         rows = len(curve_set.bigrams)
@@ -141,7 +169,7 @@ class PackedSet:
 
 
 @lru_cache(maxsize=4096)
-def _bigram_block(bigram: Bigram, poses: tuple[str, ...]) -> tuple[Ints, NDArray[np.float64]]:
+def _bigram_block(bigram: HasCurves, poses: tuple[str, ...]) -> tuple[Ints, NDArray[np.float64]]:
     """Keys per pose, and all of them as columns; cached because an edit changes one bigram of 441."""
     blocks = [closed(bigram.curves[pose]) if pose in bigram.curves else _EMPTY for pose in poses]
     sizes = np.array([block.s.size for block in blocks], np.intp)

@@ -23,7 +23,8 @@ def build_faces(options: argparse.Namespace) -> int:
 
 
 def build_curves(options: argparse.Namespace) -> int:
-    """Make curve sets from their recipes: all of ours, or those named by name or path; the .json goes beside each."""
+    """Make curve sets from their recipes: all of ours and their JSON Schema, or those named by name or path."""
+    from core_pipeline.files.curve_set_records import write_schema
     from core_pipeline.phone_parts import write
 
     ours = {path.stem: path for path in sorted((resources.assets() / "curves").glob("*.toml"))}
@@ -33,6 +34,8 @@ def build_curves(options: argparse.Namespace) -> int:
         for done, recipe in enumerate(recipes, 1):
             written.append(write(recipe))
             progress.step(done, f"curve sets: {recipe.stem}")
+    if not options.names:
+        written.append(write_schema(resources.assets() / "curves"))
     _tell(written)
     return 0
 

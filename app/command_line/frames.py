@@ -30,7 +30,7 @@ class FaceFrames:
 
     def __init__(self, face: Face, poses: tuple[str, ...], size: tuple[int, int]) -> None:
         self.size = size
-        self.view = View.of(face.camera)
+        self.view = View.on(face)
         self._shapes = face.shapes
         self._matrix = face.retarget(poses)
         self._renderer = FaceRenderer(face, _platform())

@@ -9,6 +9,8 @@ from typing import NoReturn
 from core_pipeline.errors import UserError
 from core_pipeline.settings import PRESETS, SPLINES
 
+from . import curve_sets_parser, curve_work_parser
+
 _FACE = "toon, ada, man, woman, crab; or a .glb, .gltf or .vrm; or a folder of .obj poses"
 
 
@@ -58,12 +60,9 @@ def make_parser() -> Parser:
     bake.add_argument("--fps", type=float, default=60, metavar="N", help="frames per second, 1 to 1000 (default 60)")
     bake.add_argument("--no-snap", action="store_true", help="do not put each peak on its nearest frame")
 
-    check = command(
-        "check",
-        "validate a curve set: exit code 0 when it is good, 1 with a line per problem",
-        "lipstitch check my-curves.json",
-    )
-    check.add_argument("file", type=Path, metavar="FILE", help="a curve set, .json")
+    curve_work_parser.add(command)
+
+    curve_sets_parser.add(command)
 
     render = command(
         "render",
@@ -82,6 +81,9 @@ def make_parser() -> Parser:
     face = command("face", "say what a face is made of and which poses it can make", "lipstitch face head.glb")
     face.add_argument("face", metavar="FACE", help=_FACE)
     face.add_argument("--curves", type=Path, metavar="FILE", help="the curve set whose poses it shall make")
+    face.add_argument(
+        "--new-set", type=Path, metavar="FILE", help="write an empty curve set over the face's own shapes (.json)"
+    )
 
     sheet = command(
         "contact-sheet",

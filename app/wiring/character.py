@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtCore import QObject, QTimer
-from PySide6.QtGui import QAction, QActionGroup
+from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtGui import QActionGroup
 from PySide6.QtWidgets import QFileDialog
 
+from core_pipeline.errors import UserError
+from core_pipeline.faces.looks import ANGLES
 from core_pipeline.faces.open_face import Opened
+from core_pipeline.faces.pose_set import new_curve_set
 
 from .. import resources
 from .parts import Parts
@@ -18,7 +21,12 @@ RIGS = "Faces (*.glb *.gltf *.vrm)"
 
 
 class Character(QObject):
-    """Joins the face view, the renderer and the reader of faces."""
+    """Joins the face view, the renderer and the reader of faces.
+
+    set_wanted(CurveSet)  the user wants to draw curves for the face's own poses
+    """
+
+    set_wanted = Signal(object)
 
     def __init__(self, parts: Parts, parent: QObject) -> None:
         super().__init__(parent)
@@ -32,7 +40,7 @@ class Character(QObject):
         self._caption.setInterval(CAPTION_MS)
         self._caption.timeout.connect(self._show_caption)
         self._caption.start()
-        self._group = QActionGroup(self)
+        self._group: QActionGroup = self._window.actions_.characters_menu.choice()
         self._connect()
         self._menu()
 
@@ -45,8 +53,8 @@ class Character(QObject):
         view.orbited.connect(preview.orbit)
         view.panned.connect(preview.pan)
         view.zoomed.connect(preview.zoom)
-        view.reset_wanted.connect(preview.reset_view)
-        view.cutaway_wanted.connect(preview.cut_away)
+        view.reset_wanted.connect(lambda: preview.set_angle(ANGLES["front"]))
+        view.cutaway_wanted.connect(lambda on: preview.cut_away(0, on))
         view.cutaway_wanted.connect(view.set_cutaway)
         self._window.actions_.lively.toggled.connect(preview.set_lively)
         view.retry_wanted.connect(preview.worker.retry)
@@ -55,13 +63,11 @@ class Character(QObject):
     def _menu(self) -> None:
         actions, menu = self._window.actions_, self._window.actions_.characters_menu
         for folder in resources.characters():
-            action = QAction(folder.name.capitalize(), self._group, checkable=True)
+            action = menu.add(f"character.{folder.name}", folder.name.capitalize(), checked=False)
+            action.setActionGroup(self._group)
             action.setData(str(folder))
             action.triggered.connect(lambda _=False, folder=folder: self.open(folder))
-            menu.addAction(action)
-        menu.addSeparator()
-        menu.addAction(actions.open_face)
-        menu.addAction(actions.open_face_folder)
+        actions.new_set_for_face.triggered.connect(self._new_set)
         actions.open_face.triggered.connect(self._ask_file)
         actions.open_face_folder.triggered.connect(self._ask_folder)
 
@@ -92,6 +98,14 @@ class Character(QObject):
         self._state.put("face", str(self._faces.path))
         self._state.put("lively", self._window.actions_.lively.isChecked())
         self._caption.stop()
+
+    def _new_set(self) -> None:
+        face = self._preview.face
+        try:
+            if face is not None:
+                self.set_wanted.emit(new_curve_set(face))
+        except UserError as error:
+            self._window.hint_label.setText(str(error))
 
     def _ask_file(self) -> None:
         name, _ = QFileDialog.getOpenFileName(self._window, self.tr("Open a face"), self._state.text("faces"), RIGS)

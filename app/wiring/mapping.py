@@ -155,8 +155,10 @@ class Mapping(QObject):
 
     def _by(self, preset: Preset) -> ReadOnly[str, Mix]:
         """The poses of the open face as a preset makes them."""
-        shapes = self._opened.face.shapes if self._opened is not None else ()
-        return retarget.apply(preset, shapes, self._poses).poses
+        if self._opened is None:
+            return {}
+        face = self._opened.face
+        return retarget.apply(preset, face.shapes, self._poses, face.expressions).poses
 
     def _known_presets(self) -> dict[str, Preset]:
         if not self._presets:

@@ -54,7 +54,7 @@ class OpenBigram(QObject):
         w.stage_panel.pose_activated.connect(self.activate_pose)
         w.stage_panel.bigram_picked.connect(self._open_from_overlay)
         w.picker.picked.connect(self.open)
-        w.weak_list.picked.connect(self._open_weak)
+        w.weak_list.picked.connect(self.open_in_sentence)
 
     # ── open ─────────────────────────────────────────────────────────────────────────────────────
 
@@ -84,6 +84,21 @@ class OpenBigram(QObject):
             i = min(max(i, 0), len(stages.schedule) - 2)
             self.open(stages.schedule.pairs()[i], i)
 
+    def open_swapped(self) -> None:
+        """From a-b to b-a."""
+        if self.pair is not None:
+            self.open(self.pair[::-1])
+
+    def open_next(self, step: int = 1) -> None:
+        """The sentence's next bigram, or the previous one with step −1; from the end to the start."""
+        stages = self._session.stages
+        if stages is not None and stages.schedule.pairs():
+            pairs = stages.schedule.pairs()
+            at = self.index if self.index is not None else -1 if step > 0 else 0
+            i = (at + step) % len(pairs)
+            self.open(pairs[i], i)
+            self._go_to(float(stages.schedule.times[i]))
+
     def set_replaced(self) -> None:
         """Another set was opened: all its poses, and the same bigram if it has it, else F-Ah, the paper's example."""
         curve_set = self._document.curve_set
@@ -102,8 +117,13 @@ class OpenBigram(QObject):
         self.activate_pose(pose)
         self._go_to(seconds)
 
-    def _open_weak(self, pair: Pair, seconds: float | None) -> None:
-        self.open(pair)
+    def open_in_sentence(self, pair: Pair, seconds: float | None) -> None:
+        """Open a bigram where the sentence has it nearest to a moment, and go there."""
+        stages, index = self._session.stages, None
+        if stages is not None and seconds is not None:
+            places = [i for i, other in enumerate(stages.schedule.pairs()) if other == pair]
+            index = min(places, key=lambda i: abs(stages.schedule.times[i + 1] - seconds), default=None)
+        self.open(pair, index)
         if seconds is not None:
             self._go_to(seconds)
 

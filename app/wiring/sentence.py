@@ -6,6 +6,7 @@ from PySide6.QtCore import QObject
 
 from core_pipeline.speech.utterance import Utterance
 
+from ..pinned import Pinned
 from .parts import Parts
 
 VOICE, RATE = "en-us", 175
@@ -22,6 +23,7 @@ class Sentence(QObject):
         self._speech = parts.speech
         self._window = parts.window
         self._play_next = False
+        self.pinned = Pinned(parts.state, self)
         w, player = self._window, self._player
         w.sentence_bar.sentence_entered.connect(self.type)
         self._speech.spoken.connect(self._spoken)

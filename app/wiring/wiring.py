@@ -1,18 +1,17 @@
 """The only place, with its neighbours, where wishes become commands and values reach the views.
 
 open_bigram.py has the canvas and what belongs to it, sentence.py the sentence and its transport,
-character.py the face, mapping.py what makes its poses; here is the rest: the document's news, the pipeline's
-results, settings, search, menus.
+character.py the face, mapping.py what makes its poses, palette.py the command palette, keys.py keymaps and
+shortcuts; here is the rest: the document's news, the pipeline's results, settings, search, menus.
 """
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtCore import QObject, QTimer
+from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QMessageBox
 
-from core_pipeline.diagnose import Weakness, weak_bigrams
 from core_pipeline.errors import UserError
 from core_pipeline.phone_classes import by_class, by_frequency
 from core_pipeline.phonemes import SILENCE, Pair, pair_name
@@ -20,18 +19,24 @@ from core_pipeline.pipeline import Stages
 from core_pipeline.poses import MEANING
 from core_pipeline.settings import Settings
 from core_pipeline.speech.utterance import Utterance
-from widgets.picker.weak_list import WeakRow
 
+from ..exchange import Exchange
 from ..preview import BIGRAM_SECONDS
 from .before_after import BeforeAfter
+from .carrier import Carrier
 from .character import Character
+from .compare import Compare
+from .keys import KeysOfWindow
 from .mapping import Mapping
 from .open_bigram import OpenBigram
+from .palette import Palette
 from .parts import Parts
+from .queue import Queue
 from .sentence import RATE, VOICE, Sentence
-
-#: What may lag a moment behind a drag does so for this long.
-LATE_MS = 120
+from .statistics import Statistics
+from .suggesting import Suggesting
+from .time_spent import TimeSpent
+from .weak import Weak
 
 
 class Wiring(QObject):
@@ -47,14 +52,20 @@ class Wiring(QObject):
         self._state = parts.state
         self._search = parts.search
         self._statuses: dict[Pair, str] = {}
-        self._late = QTimer(self)
-        self._late.setSingleShot(True)
-        self._late.setInterval(LATE_MS)
-        self._late.timeout.connect(self._show_weak)
+        self.exchange = Exchange(parts.files, parts.session)
         self.bigram = OpenBigram(parts, self)
         self.sentence = Sentence(parts, self)
         self.character = Character(parts, self)
         self.mapping = Mapping(parts, self)
+        self.weak = Weak(parts, self.bigram, self.sentence, self)
+        self.suggesting = Suggesting(parts, self.bigram, self.weak, self)
+        self.carrier = Carrier(parts, self.sentence, self)
+        self.queue = Queue(parts, self.bigram, self.weak, self.carrier, self)
+        self.time_spent = TimeSpent(parts, self.bigram, self)
+        self.compare = Compare(parts, self.bigram, self)
+        self.statistics = Statistics(parts, self.queue, self)
+        self.palette = Palette(parts, self.bigram, self.sentence, self)
+        self.keys = KeysOfWindow(parts, self)
         self.before_after = BeforeAfter(parts, self)
         self.bigram.opened.connect(self.before_after.forget)
         self._connect_document()
@@ -70,11 +81,13 @@ class Wiring(QObject):
 
     def _connect_document(self) -> None:
         self._document.bigram_changed.connect(self._bigram_changed)
+        self._document.bigrams_changed.connect(self._bigrams_changed)
         self._document.settings_changed.connect(self._settings_changed)
         self._document.replaced.connect(self._set_replaced)
         self._document.file_changed.connect(self._show_file)
         self._session.stages_changed.connect(self._stages_changed)
         self._files.autosave.failed.connect(self._window.hint_label.setText)
+        self._files.keeper.failed.connect(self._window.hint_label.setText)
         self._files.autosave.saved.connect(self._show_saved)
 
     def _connect_views(self) -> None:
@@ -84,7 +97,7 @@ class Wiring(QObject):
         w.canvas.play_wanted.connect(preview.toggle_bigram)
         w.header.snap_toggled.connect(w.canvas.set_snap)
         w.header.polygon_toggled.connect(w.canvas.set_polygon)
-        w.header.action_wanted.connect(w.canvas.do)
+        w.header.action_wanted.connect(w.canvas.act)
         w.canvas.keys_changed.connect(w.header.set_keys)
         w.header.set_keys(w.canvas.keys)
         w.bigram_transport.play_toggled.connect(preview.toggle_bigram)
@@ -106,24 +119,30 @@ class Wiring(QObject):
             (a.open, self._files.ask_open),
             (a.save, self._files.save),
             (a.save_as, self._files.ask_save_as),
-            (a.export, self._files.ask_export),
-            (a.export_weights, self._files.ask_export_weights),
+            (a.new_on_base, self.exchange.ask_new_on_base),
+            (a.import_script, self.exchange.ask_import),
+            (a.restore, self._files.ask_restore),
+            (a.export, self.exchange.ask_export),
+            (a.export_weights, self.exchange.ask_export_weights),
             (a.quit, w.close),
             (a.find, w.picker.search.setFocus),
             (a.sentence, w.sentence_bar.field.setFocus),
+            (a.swapped, self.bigram.open_swapped),
+            (a.next_bigram, self.bigram.open_next),
+            (a.previous_bigram, lambda: self.bigram.open_next(-1)),
             (a.play, self._preview.toggle_sentence),
             (a.play_bigram, self._preview.toggle_bigram),
             (a.to_start, self.sentence.to_start),
-            (a.reset_view, self._preview.reset_view),
+            (a.reset_view, w.face_view.reset_wanted.emit),
             (a.default_layout, w.default_layout),
             (a.about, self._about),
         ):
             action.triggered.connect(lambda _=False, act=act: act())
         a.loop.toggled.connect(self.sentence.set_loop)
-        a.keymaps.triggered.connect(lambda action: w.canvas.set_keymap(action.data()))
         a.safe_colours.toggled.connect(w.stage_panel.set_palette_safe)
         w.play_wanted.connect(self._preview.toggle_sentence)
         w.dropped.connect(self._open_dropped)
+        self.character.set_wanted.connect(self._files.new_empty)
 
     # ── document → views ─────────────────────────────────────────────────────────────────────────
 
@@ -156,6 +175,13 @@ class Wiring(QObject):
         else:
             self.bigram.open(pair)  # undo reached another bigram: show what it did
 
+    def _bigrams_changed(self) -> None:
+        curve_set = self._document.curve_set
+        self._session.set_curve_set(curve_set)
+        self._statuses = {pair: curve_set.status_of(pair) for pair in self._statuses}
+        self._show_statuses()
+        self.bigram.show_curves()
+
     def _settings_changed(self) -> None:
         self._session.set_curve_set(self._document.curve_set)
         self._show_settings()
@@ -174,10 +200,7 @@ class Wiring(QObject):
         self._window.canvas.set_spline(settings.spline)
 
     def _show_statuses(self) -> None:
-        total = len(self._document.curve_set.phonemes) ** 2
-        drawn = sum(status != "empty" for pair, status in self._statuses.items() if SILENCE not in pair)
         self._window.picker.set_statuses(self._statuses)
-        self._window.picker.set_coverage(self.tr("{0} of {1} bigrams").format(drawn, total), drawn / max(total, 1))
 
     def _show_file(self) -> None:
         document, w = self._document, self._window
@@ -202,8 +225,6 @@ class Wiring(QObject):
         w.stage_panel.set_stages(stages)
         w.stage_panel.set_source_phones(utterance.schedule.phones if utterance is not None else None)
         self.bigram.show_place()
-        if not self._late.isActive():
-            self._late.start()
         if stages is None:
             w.timing_label.setText("")
             w.missing_label.setText("")
@@ -212,28 +233,6 @@ class Wiring(QObject):
         names = ", ".join(pair_name(pair) for pair in stages.missing)
         w.missing_label.setText(self.tr("{0} missing").format(len(stages.missing)) if names else "")
         w.missing_label.setToolTip(names)
-
-    def _show_weak(self) -> None:
-        if self._session.in_gesture:  # the hand comes first
-            self._late.start()
-            return
-        w, stages = self._window, self._session.stages
-        weak = weak_bigrams(stages, self._session.curve_set) if stages is not None else []
-        w.weak_list.set_rows([WeakRow(x.pair, self._why(x), x.time, x.uses, x.severity > 0.2) for x in weak])
-        w.picker.set_weak({x.pair: self._why(x) for x in weak if x.severity > 0.2})
-        w.picker.set_used(self._session.used())
-        pairs = stages.schedule.pairs() if stages is not None else []
-        words = zip(reversed(pairs), reversed(self.bigram.examples), strict=False)  # of several, the first
-        w.picker.set_words({pair: text for pair, (text, _) in words if text})
-
-    def _why(self, weakness: Weakness) -> str:
-        if weakness.kind == "slowed":
-            return self.tr("{0}: {1} % lost to the speed limit").format(weakness.pose, round(100 * weakness.amount))
-        return {
-            "missing": self.tr("missing"),
-            "flat": self.tr("no curve rises"),
-            "unreviewed": self.tr("not reviewed yet"),
-        }[weakness.kind]
 
     def _sentence_moment(self, seconds: float) -> None:
         w = self._window
@@ -256,8 +255,10 @@ class Wiring(QObject):
     # ── the window ───────────────────────────────────────────────────────────────────────────────
 
     def _open_dropped(self, path: Path) -> None:
-        """A curve set, or else a face."""
-        if path.suffix.lower() != ".json":
+        """A curve set, a diphone script, or else a face."""
+        if path.suffix.lower() == ".py":
+            self.exchange.import_script(path)
+        elif path.suffix.lower() != ".json":
             self.character.open(path)
         elif self._files.may_discard():
             self._files.open(path)
@@ -285,9 +286,7 @@ class Wiring(QObject):
         w.restore_layout(state.layout("geometry"), state.layout("docks"))
         w.picker.set_order(state.text("order of phones"))
         w.actions_.safe_colours.setChecked(state.flag("safe colours", False))
-        for action in w.actions_.keymaps.actions():
-            if action.data() == state.text("keymap", "neutral"):
-                action.trigger()
+        self.keys.restore()
         self.character.restore()
         self.sentence.set_loop(state.flag("loop", True))
         w.transport.set_speed(state.number("speed", 1.0))
@@ -302,9 +301,9 @@ class Wiring(QObject):
         state.put("docks", w.saveState())
         state.put("order of phones", w.picker.order_name)
         state.put("sentence", w.sentence_bar.sentence)
-        keymap = w.actions_.keymaps.checkedAction()
-        state.put("keymap", keymap.data() if keymap is not None else "neutral")
         state.put("safe colours", w.actions_.safe_colours.isChecked())
         state.put("loop", player.looping)
         state.put("speed", player.speed)
-        self._late.stop()
+        self.weak.close()
+        self.carrier.close()
+        self.time_spent.close()

@@ -34,6 +34,7 @@ class Face:
     deltas         (k, n, 3) added to the positions at weight 1
     normal_deltas  (k, n, 3) added to the normals at weight 1
     pose_map       pose → {shape: amount}; empty for a face whose shapes are the poses
+    expressions    what the rig's author made of its shapes (VRM), expression → {shape: amount}
     parts          name → (first triangle, number of triangles), so that checks can tell teeth from skin
     """
 
@@ -47,6 +48,7 @@ class Face:
     deltas: Floats
     normal_deltas: Floats
     pose_map: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    expressions: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     parts: Mapping[str, tuple[int, int]] = field(default_factory=dict)
     camera: Camera = Camera()
 

@@ -12,10 +12,17 @@ from core_pipeline.faces.retarget import normalised
 
 _FOV = 24.0
 #: Height of the picture in heights of what moves: brow to chin is about two thirds of a head.
-_AROUND = 0.9
+_AROUND = 0.75
 #: Vertices that move less than this part of the usual motion do not tell where the face is, nor do wild shapes.
 _MOVES, _WILD = 0.05, 10.0
 _LONGER = 1.1
+#: Parts below which a picture of a head may end, and how much of them it shows, in heights of the head.
+_SHOULDERS = ("shirt", "collar", "neck")
+_SHOULDER = 0.06
+#: Beyond this part of the half picture nothing was meant to be seen.
+_SEEN = 1.1
+#: Width of a close view in widths of the mouth.
+_ROUND_MOUTH = 1.7
 _OPEN = frozenset({"jawopen", "open", "mouthopen", "visemeaa", "jawdrop", "vopen", "aa", "fclmtha", "a"})
 
 
@@ -38,8 +45,42 @@ def head_camera(face: Face) -> Camera:
 
 
 def head_height(face: Face) -> float:
-    """Height of the head, in the mesh's unit: of all that stands around what moves."""
-    return float(np.ptp(_near(face, _moving(face))[:, 1]))
+    """Height of the head, in the mesh's unit: of all that stands around what moves, or of everything."""
+    moved = _moving(face)
+    return float(np.ptp((_near(face, moved) if moved.any() else face.positions)[:, 1]))
+
+
+def head_outline(face: Face) -> Floats:
+    """(m, 3) of the neutral face: what a picture of it must show, the head from its highest hair to below the chin.
+
+    A bust is cut where the shoulders begin, an avatar where its head ends; a face that names no such parts is
+    shown whole, as far as its own camera looks.
+    """
+    points = face.positions
+    for name in _SHOULDERS:
+        if name in face.parts:
+            top = face.positions[_corners(face, name), 1].max()
+            head = points[points[:, 1] >= top]
+            x, _, z = face.camera.target
+            below = np.array([[x, top - _SHOULDER * (head[:, 1].max() - top), z]], np.float32)
+            return np.vstack([_silhouette(head), below])
+    camera = face.camera
+    reach = _SEEN * camera.distance * np.tan(np.radians(camera.fov / 2))
+    seen = np.abs(points[:, :2] - np.asarray(camera.target)[:2]).max(axis=1) <= reach
+    return _silhouette(points[seen] if seen.any() else points)
+
+
+def mouth_outline(face: Face) -> Floats:
+    """(m, 3) of the neutral face: the mouth and what is round it, for a view from near."""
+    if "lips" in face.parts:
+        mouth = face.positions[_corners(face, "lips")]
+    else:
+        mouth = face.positions[_lower_half(face)]
+    low, high = mouth.min(0), mouth.max(0)
+    middle, wide = (low + high) / 2, _ROUND_MOUTH * float((high - low)[0])
+    corners = np.array([(x, y, z) for x in (-1, 1) for y in (-0.8, 0.8) for z in (0,)], np.float32)
+    around: Floats = (middle + corners * wide / 2).astype(np.float32)
+    return around
 
 
 def turned_upright(face: Face) -> tuple[Face, tuple[str, ...]]:
@@ -122,3 +163,26 @@ def _turned(face: Face, turn: Floats) -> Face:
         deltas=face.deltas @ turn.T,
         normal_deltas=face.normal_deltas @ turn.T,
     )
+
+
+def _corners(face: Face, part: str) -> NDArray[np.uint32]:
+    """The vertices of a part."""
+    first, count = face.parts[part]
+    return np.unique(face.triangles[first : first + count])
+
+
+def _lower_half(face: Face) -> NDArray[np.bool_]:
+    """(n,) the lower half of what moves: there is the mouth of a rig that names no lips."""
+    moved = _moving(face)
+    if not moved.any():
+        return np.ones(len(face.positions), bool)
+    y = face.positions[:, 1]
+    return moved & (y <= np.median(y[moved]))
+
+
+def _silhouette(points: Floats) -> Floats:
+    """Those of the points that stand out farthest in some direction: as good as all for a frame, and few."""
+    turn, lift = np.meshgrid(np.linspace(0, 2 * np.pi, 24, endpoint=False), np.linspace(-1.4, 1.4, 9))
+    rays = np.stack([np.cos(lift) * np.sin(turn), np.sin(lift), np.cos(lift) * np.cos(turn)], -1).reshape(-1, 3)
+    outline: Floats = points[np.unique((points @ rays.T.astype(np.float32)).argmax(axis=0))]
+    return outline

@@ -5,8 +5,8 @@ Every vertex is placed as the file's rest pose places it (nodes, and joints wher
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -15,12 +15,14 @@ from numpy.typing import NDArray
 from core_pipeline.errors import UserError
 from core_pipeline.faces import draco
 from core_pipeline.faces.face import Face, Floats
+from core_pipeline.faces.finer import MOST_TRIANGLES, Finer, head_box
 from core_pipeline.faces.framing import frame
 from core_pipeline.faces.gltf_colours import Colours
 from core_pipeline.faces.gltf_file import GltfFile, Json
 from core_pipeline.faces.gltf_scene import Matrix, Scene
-from core_pipeline.faces.limits import LARGEST, MAX_MORPH_BYTES, MAX_VERTICES
-from core_pipeline.faces.normals import shape_normals
+from core_pipeline.faces.limits import LARGEST, MAX_MORPH_BYTES, MAX_TRIANGLES, MAX_VERTICES
+from core_pipeline.faces.normals import VertexNormals, seam_groups, shape_normals
+from core_pipeline.faces.vrm import expressions
 from core_pipeline.files.json_text import shown
 
 MAX_PARTS = 2000
@@ -46,8 +48,10 @@ def read_rig(path: Path, cancelled: Cancelled = lambda: False) -> tuple[Face, li
     for plan in planned:
         if cancelled():
             raise UserError(f"{path.name}: opening was cancelled.")
-        patches.append(_patch(gltf, scene, colours, plan))
-    return _join(gltf, patches), gltf.files, tuple(gltf.notes)
+        patches.append(_patch(gltf, scene, plan))
+    _colour(colours, patches, planned)
+    face = _join(gltf, patches)
+    return replace(face, expressions=_expressions(gltf, planned, face.shapes)), gltf.files, tuple(gltf.notes)
 
 
 @dataclass(frozen=True)
@@ -68,19 +72,22 @@ def _planned(gltf: GltfFile, scene: Scene) -> list[_Plan]:
         plans += _primitives(gltf, node, matrix)
         if len(plans) > MAX_PARTS:
             raise gltf.fail(f"it has more than {MAX_PARTS:,} parts; export the head alone.")
-    vertices, shapes = 0, set()
+    vertices, corners, shapes = 0, 0, set()
     for plan in plans:
         attributes = gltf.part(plan.primitive, "attributes")
         if "POSITION" not in attributes:
             raise gltf.fail(f"mesh “{plan.title}” has no positions; export the file again.")
         vertices += gltf.count(attributes["POSITION"])
+        corners += gltf.count(plan.primitive["indices"]) if "indices" in plan.primitive else 0
         shapes |= set(plan.names)
     if not shapes:
         raise gltf.fail("it has no morph targets (blendshapes); export the face with shape keys.")
     if vertices > MAX_VERTICES:
         raise gltf.fail(f"it has {vertices:,} vertices, more than {MAX_VERTICES:,}; reduce the mesh.")
+    if corners > 3 * MAX_TRIANGLES:
+        raise gltf.fail(f"it has {corners // 3:,} triangles, more than {MAX_TRIANGLES:,}; reduce the mesh.")
     if vertices * len(shapes) * 24 > MAX_MORPH_BYTES:
-        raise gltf.fail(f"{vertices:,} vertices × {len(shapes)} shapes need more than 1 GB; reduce the mesh.")
+        raise gltf.fail(f"{vertices:,} vertices × {len(shapes)} shapes need more than 512 MB; reduce the mesh.")
     return plans
 
 
@@ -91,8 +98,8 @@ class _Patch:
     title: str
     positions: Floats
     triangles: NDArray[np.uint32]
+    normals: Floats
     colours: Floats
-    normals: Floats | None = None
     deltas: dict[str, Floats] = field(default_factory=dict)
 
 
@@ -141,7 +148,15 @@ def _names(gltf: GltfFile, mesh: Json, drawn: list[Json], title: str) -> list[st
     return list(once)
 
 
-def _patch(gltf: GltfFile, scene: Scene, colours: Colours, plan: _Plan) -> _Patch:
+def _expressions(gltf: GltfFile, plans: list[_Plan], shapes: tuple[str, ...]) -> dict[str, Mapping[str, float]]:
+    """What a VRM makes of the shapes that were read."""
+    names = {plan.node["mesh"]: plan.names for plan in plans}
+    made = expressions(gltf, lambda mesh: names.get(mesh, ()))
+    return {name: mix for name, mix in made.items() if set(mix) <= set(shapes)}
+
+
+def _patch(gltf: GltfFile, scene: Scene, plan: _Plan) -> _Patch:
+    """A primitive where the scene puts it; not coloured yet."""
     primitive, title = plan.primitive, plan.title
     attributes, targets = gltf.part(primitive, "attributes"), gltf.parts(primitive, "targets")
     count = gltf.count(attributes["POSITION"])
@@ -150,17 +165,40 @@ def _patch(gltf: GltfFile, scene: Scene, colours: Colours, plan: _Plan) -> _Patc
     place = scene.placement(plan.node, plan.matrix, attributes, count)
     positions = gltf.read(attributes["POSITION"], "VEC3").astype(np.float32)
     triangles = _triangles(gltf, primitive, count, title)
-    if np.linalg.det(plan.matrix[:3, :3]) < 0:
+    if count and np.median(np.linalg.det(place[..., :3, :3])) < 0:
         triangles = triangles[:, ::-1]
-    surface = colours.of(primitive, count, triangles)
-    patch = _Patch(title, _move(place, positions, 1), triangles[surface.shown], surface.colours)
+    positions, normals = _move(place, positions, 1), np.zeros_like(positions)
     if "NORMAL" in attributes:
         normals = gltf.read(attributes["NORMAL"], "VEC3").astype(np.float32)
-        patch.normals = _unit(_move(np.linalg.pinv(place[..., :3, :3]).swapaxes(-1, -2), normals, 0))
+        normals = _unit(_move(np.linalg.pinv(place[..., :3, :3]).swapaxes(-1, -2), normals, 0))
+    patch = _Patch(title, positions, triangles, normals, np.ones((count, 4), np.float32))
     for name, target in zip(plan.names, targets, strict=True):
         if "POSITION" in target:
             patch.deltas[name] = _move(place, gltf.read(target["POSITION"], "VEC3").astype(np.float32), 0)
     return patch
+
+
+def _colour(colours: Colours, patches: list[_Patch], plans: list[_Plan]) -> None:
+    """Give every patch its colours, and finer triangles round the head where its picture shows more than they can."""
+    box = head_box([(patch.positions, patch.deltas.values()) for patch in patches])
+    shapes = len({name for patch in patches for name in patch.deltas})
+    vertices = sum(len(patch.positions) for patch in patches)
+    room = MOST_TRIANGLES - sum(len(patch.triangles) for patch in patches)
+    if (vertices + max(room, 0)) * shapes * 24 > MAX_MORPH_BYTES:
+        room = 0
+    # small parts first: eyes want little and need it most
+    for patch, plan in sorted(zip(patches, plans, strict=True), key=lambda both: len(both[0].triangles)):
+        count, finer = len(patch.positions), Finer(patch.triangles)
+        if box is not None:
+            finer = colours.finer(plan.primitive, patch.positions, patch.triangles, box, room)
+            room -= len(finer.triangles) - len(patch.triangles)
+        surface = colours.of(plan.primitive, count, finer)
+        if finer.rounds:
+            if not patch.normals.any():  # those of the flat triangles as they were, or facets would show
+                patch.normals = VertexNormals(patch.triangles, seam_groups(patch.positions)).of(patch.positions)
+            patch.positions, patch.normals = finer.of(patch.positions), _unit(finer.of(patch.normals))
+            patch.deltas = {name: finer.of(delta) for name, delta in patch.deltas.items()}
+        patch.triangles, patch.colours = finer.triangles[surface.shown], surface.colours
 
 
 def _same_counts(gltf: GltfFile, title: str, count: int, attributes: Json, targets: list[Json]) -> None:
@@ -223,8 +261,8 @@ def _join(gltf: GltfFile, patches: list[_Patch]) -> Face:
     for patch, start in zip(patches, first, strict=False):
         for name, delta in patch.deltas.items():
             deltas[shapes.index(name), start : start + len(delta)] = delta
-    stored = [patch.normals if patch.normals is not None else np.zeros_like(patch.positions) for patch in patches]
-    normals, normal_deltas = shape_normals(positions, triangles, deltas, np.concatenate(stored))
+    stored = np.concatenate([patch.normals for patch in patches])
+    normals, normal_deltas = shape_normals(positions, triangles, deltas, stored)
     return Face(
         name=gltf.path.stem,
         title=gltf.path.stem,

@@ -1,7 +1,7 @@
 """A glTF material as colours per vertex: vertex colours × the material's colour × its picture; and what is see-through.
 
-We draw opaque triangles of one colour per vertex. Triangles a material makes invisible (lash cards, corneas) are
-left out, else they would stand before the eyes.
+We draw opaque triangles of one colour per vertex, finer ones where a picture needs them. Triangles a material makes
+invisible (lash cards, corneas) are left out, else they would stand before the eyes.
 """
 
 from __future__ import annotations
@@ -16,13 +16,18 @@ from PIL import Image, UnidentifiedImageError
 
 from core_pipeline.errors import UserError
 from core_pipeline.faces.face import Floats
+from core_pipeline.faces.finer import Box, Finer, refined
 from core_pipeline.faces.gltf_file import GltfFile, Json
 
 #: Pixels a picture may announce; it is not unpacked before.
 MAX_PIXELS = 8192 * 8192
+#: WebP is unpacked by its library, into more than one copy.
+MAX_PIXELS_WEBP = MAX_PIXELS // 4
 #: Pictures are looked up at this size: one value per vertex wants no more.
 _SIDE = 1024
 _VISIBLE = 0.4
+#: Most pixels (in each direction) averaged for one vertex: more would mix in what lies beside an island.
+_BLUR = 4
 _REPEAT, _CLAMP, _MIRROR = 10497, 33071, 33648
 
 Triangles = NDArray[np.uint32]
@@ -37,6 +42,36 @@ class Surface:
     shown: NDArray[np.bool_]
 
 
+@dataclass(frozen=True)
+class Pictured:
+    """A picture (h, w, 4) in sRGB, where vertices lie in it (n, 2), and how it goes on beyond its edges."""
+
+    picture: Picture
+    places: NDArray[np.float64]
+    modes: tuple[Any, Any]
+
+    def sample(self, places: NDArray[np.float64]) -> Floats:
+        """(n, 4) sRGB and alpha at texture coordinates (n, 2); +v is down, as in glTF."""
+        height, width = self.picture.shape[:2]
+        at = np.stack([_wrapped(places[:, axis], mode) for axis, mode in enumerate(self.modes)], -1)
+        column = np.minimum((at[:, 0] * width).astype(np.int64), width - 1)
+        row = np.minimum((at[:, 1] * height).astype(np.int64), height - 1)
+        values: Floats = self.picture[row, column].astype(np.float32) / 255
+        return values
+
+    def colours(self, finer: Finer) -> tuple[Floats, Floats]:
+        """Linear RGB and alpha at the vertices (n, 4), and amid the triangles (m, 4).
+
+        A vertex stands for what lies around it: where triangles are large, pixels are averaged first.
+        """
+        places, triangles = finer.of(self.places), finer.triangles
+        corners = places[triangles]
+        edges = np.abs(corners - np.roll(corners, 1, axis=1)).max(axis=2) * max(self.picture.shape[:2])
+        times = int(np.clip(np.median(edges) / 2, 1, _BLUR)) if len(edges) else 1
+        from_afar = Pictured(_shrunk(self.picture, times), self.places, self.modes)
+        return _linear(from_afar.sample(places)), _linear(from_afar.sample(corners.mean(axis=1)))
+
+
 class Colours:
     """Reads the materials of one file; every picture once."""
 
@@ -44,54 +79,62 @@ class Colours:
         self._gltf = gltf
         self._pictures: dict[int, Picture | None] = {}
 
-    def of(self, primitive: Json, count: int, triangles: Triangles) -> Surface:
-        """The surface of a primitive with `count` vertices."""
-        gltf = self._gltf
+    def finer(self, primitive: Json, positions: Floats, triangles: Triangles, box: Box, most: int) -> Finer:
+        """The triangles of a primitive, halved where its picture asks for it, inside the head's box: `most` more."""
+        found = self._pictured(primitive)
+        if found is None or most <= 0:
+            return Finer(triangles)
+        return refined(positions, found.places, triangles, found.sample, box, most)
+
+    def of(self, primitive: Json, count: int, finer: Finer) -> Surface:
+        """The surface of a primitive that had `count` vertices and is now as `finer` says."""
+        gltf, triangles = self._gltf, finer.triangles
         material = gltf.item("materials", primitive["material"]) if "material" in primitive else {}
         surface = gltf.part(material, "pbrMetallicRoughness")
         older = gltf.part(gltf.part(material, "extensions"), "KHR_materials_pbrSpecularGlossiness")
         factor = surface.get("baseColorFactor", older.get("diffuseFactor", (1, 1, 1, 1)))
         base = gltf.floats(factor, 4)
-        alpha = np.full(count, base[3])
-        colours = np.ones((count, 4), np.float32)
+        all_of_them = count + sum(map(len, finer.rounds))
+        alpha = np.full(all_of_them, base[3])
+        colours = np.ones((all_of_them, 4), np.float32)
         colours[:, 3] = 1 - np.clip(gltf.floats([surface.get("roughnessFactor", 0.6)], 1)[0], 0, 1)
         index: Any = gltf.part(primitive, "attributes").get("COLOR_0")
         if index is not None:
             kind = "VEC4" if gltf.item("accessors", index).get("type") == "VEC4" else "VEC3"
-            own = gltf.read(index, kind).astype(np.float32)
+            own = finer.of(gltf.read(index, kind).astype(np.float32))
             colours[:, :3] = own[:, :3]
             if kind == "VEC4" and primitive.get("extras") == {"glossInAlpha": True}:
                 colours[:, 3] = own[:, 3]
             elif kind == "VEC4":
                 alpha *= own[:, 3]
         colours[:, :3] *= base[:3]
-        texture = gltf.part(surface, "baseColorTexture") or gltf.part(older, "diffuseTexture")
         seen = alpha[triangles].mean(axis=1)
-        if texture:
-            looked_up = self._looked_up(texture, primitive, count, triangles)
-            if looked_up is not None:
-                at_vertices, at_triangles = looked_up
-                colours[:, :3] *= at_vertices[:, :3]
-                seen = seen * (at_triangles[:, 3] + at_vertices[:, 3][triangles].mean(axis=1)) / 2
+        pictured = self._pictured(primitive) if count else None
+        if pictured is not None:
+            at_vertices, at_triangles = pictured.colours(finer)
+            colours[:, :3] *= at_vertices[:, :3]
+            seen = seen * (at_triangles[:, 3] + at_vertices[:, 3][triangles].mean(axis=1)) / 2
         shown = np.ones(len(triangles), bool)
         if material.get("alphaMode") in ("MASK", "BLEND"):
             cutoff = gltf.floats([material.get("alphaCutoff", 0.5)], 1)[0]
             shown = seen >= (cutoff if material["alphaMode"] == "MASK" else _VISIBLE)
         return Surface(np.clip(colours, 0, 1), shown)
 
-    def _looked_up(
-        self, texture: Json, primitive: Json, count: int, triangles: Triangles
-    ) -> tuple[Floats, Floats] | None:
-        """Linear RGB and alpha of the picture at the vertices (n, 4), and amid the triangles (m, 4)."""
+    def _pictured(self, primitive: Json) -> Pictured | None:
+        """The picture of a primitive's material and where its vertices lie in it; None when it shows none."""
         gltf = self._gltf
+        material = gltf.item("materials", primitive["material"]) if "material" in primitive else {}
+        older = gltf.part(gltf.part(material, "extensions"), "KHR_materials_pbrSpecularGlossiness")
+        surface = gltf.part(material, "pbrMetallicRoughness")
+        texture = gltf.part(surface, "baseColorTexture") or gltf.part(older, "diffuseTexture")
         move = gltf.part(gltf.part(texture, "extensions"), "KHR_texture_transform")
         channel = f"TEXCOORD_{move.get('texCoord', texture.get('texCoord', 0))}"
         attributes = gltf.part(primitive, "attributes")
-        if channel not in attributes:
+        if not texture or channel not in attributes:
             return None
         found = gltf.item("textures", texture.get("index"))
         picture = self._picture(found)
-        if picture is None or not count:
+        if picture is None:
             return None
         places = gltf.read(attributes[channel], "VEC2").astype(np.float64)
         angle = gltf.floats([move.get("rotation", 0)], 1)[0]
@@ -100,9 +143,7 @@ class Colours:
             move.get("offset", (0, 0)), 2
         )
         wrap = gltf.item("samplers", found["sampler"]) if "sampler" in found else {}
-        modes = wrap.get("wrapS", _REPEAT), wrap.get("wrapT", _REPEAT)
-        inside = _sampled(picture, places[triangles].reshape(-1, 3, 2).mean(axis=1), modes)
-        return _sampled(picture, places, modes), inside
+        return Pictured(picture, places, (wrap.get("wrapS", _REPEAT), wrap.get("wrapT", _REPEAT)))
 
     def _picture(self, texture: Json) -> Picture | None:
         """(h, w, 4) sRGB, or None after a note when this kind of picture cannot be read."""
@@ -125,7 +166,7 @@ class Colours:
         try:
             with Image.open(io.BytesIO(raw), formats=("PNG", "JPEG", "WEBP")) as image:
                 width, height = image.size
-                if width * height > MAX_PIXELS:
+                if width * height > (MAX_PIXELS_WEBP if image.format == "WEBP" else MAX_PIXELS):
                     raise gltf.fail(f"image {index} has {width:,} × {height:,} pixels, more than we take; reduce it.")
                 image.draft("RGB", (_SIDE, _SIDE))
                 image.thumbnail((_SIDE, _SIDE), Image.Resampling.BOX)
@@ -139,16 +180,21 @@ class Colours:
             return None
 
 
-def _sampled(picture: Picture, places: NDArray[np.float64], modes: tuple[Any, Any]) -> Floats:
-    """(n, 4) linear RGB and alpha at texture coordinates (n, 2); +v is down, as in glTF."""
-    height, width = picture.shape[:2]
-    at = np.stack([_wrapped(places[:, axis], mode) for axis, mode in enumerate(modes)], -1)
-    column = np.minimum((at[:, 0] * width).astype(np.int64), width - 1)
-    row = np.minimum((at[:, 1] * height).astype(np.int64), height - 1)
-    values: Floats = picture[row, column].astype(np.float32) / 255
-    rgb = values[:, :3]
-    values[:, :3] = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
-    return values
+def _shrunk(picture: Picture, times: int) -> Picture:
+    """The picture with `times` × `times` pixels averaged to one."""
+    height, width = (side // times * times for side in picture.shape[:2])
+    if times < 2 or not height or not width:
+        return picture
+    blocks = picture[:height, :width].reshape(height // times, times, width // times, times, 4)
+    smaller: Picture = blocks.mean(axis=(1, 3)).astype(np.uint8)
+    return smaller
+
+
+def _linear(srgb: Floats) -> Floats:
+    rgb = srgb[:, :3]
+    return np.concatenate(
+        [np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4), srgb[:, 3:]], axis=1
+    ).astype(np.float32)
 
 
 def _wrapped(values: NDArray[np.float64], mode: object) -> NDArray[np.float64]:

@@ -18,12 +18,13 @@ from numpy.typing import NDArray
 
 from core_pipeline.errors import UserError
 from core_pipeline.faces import meshopt
-from core_pipeline.faces.limits import LARGEST, MAX_FILE
+from core_pipeline.faces.limits import LARGEST, MAX_FILE, MAX_TEXT, MAX_UNPACKED
 from core_pipeline.files.json_text import shown
 
-MAX_VALUES = 64 * 2**20
+#: Values of one accessor, announced before any is read.
+MAX_VALUES = 16 * 2**20
 #: Values in the description: each takes a hundred bytes once it is read.
-MAX_ENTRIES = 2_000_000
+MAX_ENTRIES = 1_000_000
 #: What a file may insist on; materials may insist on anything, we take their colour alone.
 KNOWN_EXTENSIONS = frozenset(
     {
@@ -54,6 +55,7 @@ class GltfFile:
         self.notes: list[str] = []
         self._lists: dict[str, list[Json]] = {}
         self._decoded: dict[int, NDArray[Any]] = {}
+        self._room = MAX_UNPACKED
         self._unpacked: dict[int, bytes] = {}
         raw = _read(path, path.name)
         self._inline: Buffer | None = None
@@ -218,7 +220,10 @@ class GltfFile:
 
     def _unpack(self, packed: Json, length: int, index: int) -> bytes:
         count, stride = self.whole(packed, "count"), self.whole(packed, "byteStride")
-        if count * stride != length or length > MAX_FILE:
+        self._room -= length
+        if self._room < 0:
+            raise self.fail(f"it unpacks to more than {MAX_UNPACKED // 2**20} MB; export the head alone.")
+        if count * stride != length:
             raise self.fail(f"bufferView {index} unpacks {count:,} × {stride} bytes where {length:,} are announced.")
         raw, offset = self._bytes_of({key: value for key, value in packed.items() if key != "extensions"}, None)
         data = bytes(raw[offset : offset + self.whole(packed, "byteLength")])
@@ -269,6 +274,10 @@ class GltfFile:
             text = self._chunks(raw)
         if text is None:
             raise self.fail("this is not a glTF 2.0 file; export the face as .glb or .gltf.")
+        if len(text) > MAX_TEXT:
+            raise self.fail(
+                f"its description has {len(text) / 2**20:,.0f} MB, more than {MAX_TEXT // 2**20}; export it as .glb."
+            )
         if sum(text.count(mark) for mark in (b"[", b"{", b",")) > MAX_ENTRIES:
             raise self.fail(f"its description has more than {MAX_ENTRIES:,} entries; export the head alone.")
         try:
@@ -324,6 +333,8 @@ class GltfFile:
 
 def _read(path: Path, name: str) -> bytes:
     try:
+        if path.exists() and not path.is_file():
+            raise UserError(f"{name}: is no file; choose the .glb or .gltf itself.")
         size = path.stat().st_size
         if size > MAX_FILE:
             raise UserError(

@@ -12,6 +12,9 @@ from numpy.typing import NDArray
 from core_pipeline.faces.gltf_file import GltfFile, Json
 from core_pipeline.faces.limits import LARGEST
 
+#: A second's work.
+MAX_NODES = 20_000
+
 Matrix = NDArray[np.floating[Any]]
 
 
@@ -62,6 +65,8 @@ class Scene:
 
 def _world(gltf: GltfFile) -> dict[int, Matrix]:
     """Node → matrix, for the nodes of the scene."""
+    if len(gltf.items("nodes")) > MAX_NODES:
+        raise gltf.fail(f"it has {len(gltf.items('nodes')):,} nodes, more than {MAX_NODES:,}; export the head alone.")
     children = {child for node in gltf.items("nodes") for child in gltf.numbers(node, "children")}
     roots = [index for index in range(len(gltf.items("nodes"))) if index not in children]
     if gltf.items("scenes"):

@@ -11,6 +11,8 @@ from collections.abc import Sequence
 
 from .face import Floats
 
+#: Seconds by which the lives of two faces in one picture are apart, so that they do not blink as one.
+APART = 1000.9
 #: Seconds; one blink in each.
 SLOT = 4.2
 #: Seconds a lid takes to fall, stays down, and takes to rise: about those of people.

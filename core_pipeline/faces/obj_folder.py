@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from core_pipeline.errors import UserError
 from core_pipeline.faces.face import Face, Floats
 from core_pipeline.faces.framing import frame
-from core_pipeline.faces.limits import LARGEST, MAX_FILE, MAX_MORPH_BYTES, MAX_VERTICES
+from core_pipeline.faces.limits import LARGEST, MAX_MORPH_BYTES, MAX_TEXT, MAX_VERTICES
 from core_pipeline.faces.normals import shape_normals
 from core_pipeline.faces.obj_colours import SKIN, linear, part_colours
 from core_pipeline.faces.retarget import normalised
@@ -52,7 +52,7 @@ def read_obj_folder(folder: Path, cancelled: Cancelled = lambda: False) -> tuple
     base = _Obj(neutral, parts=True)
     count = len(base.vertices)
     if count * len(poses) * 24 > MAX_MORPH_BYTES:
-        raise UserError(f"{folder}: {count:,} vertices × {len(poses)} poses need more than 1 GB; reduce the mesh.")
+        raise UserError(f"{folder}: {count:,} vertices × {len(poses)} poses need more than 512 MB; reduce the mesh.")
     triangles, colours = _dressed(base)
     deltas = np.zeros((len(poses), count, 3), np.float32)
     for row, path in enumerate(poses):
@@ -113,7 +113,7 @@ class _Obj:
 
     def __init__(self, path: Path, parts: bool = False) -> None:
         self.path = path
-        raw = read_bytes(path, MAX_FILE, "mesh")
+        raw = read_bytes(path, MAX_TEXT, "mesh")
         if b"\\" in raw:  # a line goes on after a backslash
             raw = raw.replace(b"\\\r\n", b" ").replace(b"\\\n", b" ")
         if b"\n" not in raw:

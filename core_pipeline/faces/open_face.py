@@ -98,12 +98,12 @@ def _obj_files(folder: Path) -> list[Path]:
 def _retarget(path: Path, face: Face, presets: Iterable[Preset], poses: Sequence[str], ours: bool) -> Retarget:
     """The mapping saved beside the rig; else what comes with the face; else the preset that fits best."""
     saved = load_mapping(path)
-    if saved is not None:
+    if saved is not None and not set(poses).isdisjoint(saved[1]):  # else it was made for another pose set
         return _saved(face, *saved, poses, mapping_path(path))
     if ours:
         mixes = {pose: face.mix(pose) for pose in dict.fromkeys((*face.pose_map, *poses)) if face.mix(pose)}
         return _settled(OWN_NAMES, "its own face.json", mixes, poses)
-    return best(face.shapes, presets, poses)
+    return best(face.shapes, presets, poses, face.expressions)
 
 
 def _saved(face: Face, preset: str, mixes: Mapping[str, Mix], poses: Sequence[str], path: Path) -> Retarget:

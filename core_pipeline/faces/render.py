@@ -1,8 +1,10 @@
-"""The last arrow of the picture: a face at some amounts of its shapes → pixels."""
+"""The last arrow of the picture: faces at some amounts of their shapes → pixels."""
 
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,8 +13,9 @@ from numpy.typing import NDArray
 from ..errors import UserError
 from .blend import Blend
 from .face import Face, Floats
+from .looks import Look
 from .render_context import Context, Platform, process_context
-from .view import Background, View
+from .view import View, places
 
 if TYPE_CHECKING:
     from .render_gl import FaceGL
@@ -22,60 +25,56 @@ _SAMPLES = 4
 Pixels = NDArray[np.uint8]
 
 
-class FaceRenderer:
-    """Draws a face into memory. Use one renderer from one thread; several may live in one process.
+@dataclass(frozen=True, eq=False)
+class Figure:
+    """One face in a picture, and how it is seen.
+
+    amounts  (k,) amount of each of the face's shapes, finite; copied. ValueError otherwise
+    """
+
+    face: Face
+    amounts: Floats
+    view: View
+
+    def __post_init__(self) -> None:
+        amounts = np.array(self.amounts, np.float32)
+        if amounts.shape != (len(self.face.shapes),) or not np.isfinite(amounts).all():
+            raise ValueError(f"amounts must be {len(self.face.shapes)} finite numbers, not {amounts!r}")
+        object.__setattr__(self, "amounts", amounts)
+
+
+class Renderer:
+    """Draws faces into memory. Use one renderer from one thread; several may live in one process.
 
     OpenGL starts with the first frame, in the thread that asks for it. Without a `platform` the context
     of the process is used (EGL, Linux); a given one is used by this renderer alone and freed by `close`.
     """
 
-    def __init__(self, face: Face, platform: Platform | None = None) -> None:
+    def __init__(self, platform: Platform | None = None) -> None:
         self._platform = platform
         self._context: Context | None = None
         self._gl: FaceGL | None = None
-        self.set_face(face)
-
-    @property
-    def face(self) -> Face:
-        """The face that is drawn."""
-        return self._face
+        self._blends: dict[Face, tuple[Blend, float]] = {}  # and the radius of the face
 
     @property
     def software(self) -> bool:
         """Whether the processor does the drawing; known after the first frame, and True until then."""
         return self._gl is None or self._gl.software
 
-    def set_face(self, face: Face) -> None:
-        """Draw another face from the next frame on."""
-        self._face = face
-        self._blend = Blend(face)
-        self._radius = float(np.linalg.norm(face.positions, axis=1).max(initial=0.0))
-        self._sent = False
-
-    def frame(
-        self,
-        amounts: Floats,
-        view: View,
-        size: tuple[int, int],
-        full_quality: bool = True,
-        background: Background | None = None,
+    def draw(
+        self, figures: Sequence[Figure], size: tuple[int, int], full_quality: bool = True, look: Look | None = None
     ) -> Pixels:
         """(h, w, 4) uint8 BGRA, top row first. The same array again and again: copy what should last.
 
-        amounts       (k,) amount of each of the face's shapes, finite; ValueError otherwise
+        figures       each in its place of `view.places`; the same face may stand in several
         size          (w, h) in pixels
         full_quality  smooth edges and the exact normals of the moved triangles; without, blended normals,
                       and smooth edges only on a graphics card
         Raises UserError when this machine cannot draw.
         """
-        amounts = np.asarray(amounts, np.float32)
-        if amounts.shape != (len(self._face.shapes),) or not np.isfinite(amounts).all():
-            raise ValueError(f"amounts must be {len(self._face.shapes)} finite numbers, not {amounts!r}")
-        background = background or Background()
-        vertices = self._blend.exact(amounts) if full_quality else self._blend.mixed(amounts)
         try:
             with self._start():
-                return self._draw(vertices, view, size, full_quality, background)
+                return self._draw(figures, size, full_quality, look or Look())
         except (UserError, MemoryError):
             raise
         except Exception as error:
@@ -97,24 +96,43 @@ class FaceRenderer:
             self._context = process_context() if self._platform is None else Context(self._platform)
         return self._context
 
-    def _draw(
-        self, vertices: Floats, view: View, size: tuple[int, int], full_quality: bool, background: Background
-    ) -> Pixels:
+    def _draw(self, figures: Sequence[Figure], size: tuple[int, int], full_quality: bool, look: Look) -> Pixels:
         if self._gl is None:
             from .render_gl import FaceGL
 
-            self._gl = FaceGL(self._face)
-        elif not self._sent:
-            self._gl.set_face(self._face)
-        self._sent = True
-        return self._gl.draw(
-            vertices,
-            view,
-            self._radius,
-            size,
-            _SAMPLES if full_quality or not self._gl.software else 0,
-            background,
-        )
+            self._gl = FaceGL()
+        faces = {figure.face for figure in figures}
+        self._gl.forget(but=faces)
+        self._blends = {face: kept for face, kept in self._blends.items() if face in faces}
+        width, height = (max(int(side), 1) for side in size)
+        self._gl.begin((width, height), _SAMPLES if full_quality or not self._gl.software else 0)
+        for figure, place in zip(figures, places((width, height), len(figures)), strict=False):
+            face = figure.face
+            if face not in self._blends:
+                self._blends[face] = Blend(face), float(np.linalg.norm(face.positions, axis=1).max(initial=0.0))
+            blend, radius = self._blends[face]
+            vertices = blend.exact(figure.amounts) if full_quality else blend.mixed(figure.amounts)
+            self._gl.add(face, vertices, figure.view.fitted(place[2:]), radius, place, look)
+        return self._gl.finish(look.background)
+
+
+class FaceRenderer(Renderer):
+    """Draws one face at a time."""
+
+    def __init__(self, face: Face, platform: Platform | None = None) -> None:
+        super().__init__(platform)
+        self.face = face
+
+    def frame(
+        self,
+        amounts: Floats,
+        view: View,
+        size: tuple[int, int],
+        full_quality: bool = True,
+        look: Look | None = None,
+    ) -> Pixels:
+        """As `draw`, of the face alone."""
+        return self.draw([Figure(self.face, amounts, view)], size, full_quality, look)
 
 
 def _sentence(error: Exception, started: bool) -> str:

@@ -6,6 +6,7 @@ Only `render` imports this module, and late: importing it loads OpenGL, which ma
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
@@ -16,9 +17,12 @@ from pyrender import Renderer
 from pyrender.shader_program import ShaderProgram, ShaderProgramCache
 
 from .face import Face, Floats
+from .looks import Background, Light, Look
 from .render_mesh import FaceMesh
-from .render_shadow import KEY_FROM, SHADOW_OFFSET, ShadowMap, camera_to_light, shadow_reach
-from .view import Background, View
+from .render_shadow import SHADOW_OFFSET, ShadowMap, camera_to_light, shadow_reach
+from .view import View
+
+Place = tuple[int, int, int, int]
 
 _SHADERS = Path(__file__).parent / "shaders"
 _UPSIDE_DOWN = np.diag([1.0, -1.0, 1.0, 1.0])
@@ -50,20 +54,21 @@ class _Target:
 
 
 class FaceGL(Renderer):  # type: ignore[misc]
-    """Draws one face mesh over a backdrop; all calls need the context bound.
+    """Draws faces over a backdrop: `begin`, `add` each, `finish`. All calls need the context bound.
 
     pyrender's own pass walks a scene graph and looks up every uniform by name, which costs more than
     drawing a face; this one sends the few it needs. Its program cache is used, and `FaceMesh` is its primitive.
     """
 
-    def __init__(self, face: Face) -> None:
+    def __init__(self) -> None:
         super().__init__(1, 1)
         self.dpscale = 1  # the base class doubles every size on macOS
         self._program_cache = ShaderProgramCache(str(_SHADERS))
         self._targets: dict[int, _Target] = {}
         self._size = (0, 0)
         self._pixels: NDArray[np.uint8] = np.empty((0, 0, 4), np.uint8)
-        self._mesh = FaceMesh(face)
+        self._meshes: dict[Face, FaceMesh] = {}
+        self._samples = 0
         self._shadow = ShadowMap()
         self._no_vertices = GL.glGenVertexArrays(1)
         self._most_samples = int(GL.glGetIntegerv(GL.GL_MAX_SAMPLES))
@@ -73,40 +78,45 @@ class FaceGL(Renderer):  # type: ignore[misc]
         self.name: str = name
         self.software: bool = any(word in name.casefold() for word in _SOFTWARE)
 
-    def set_face(self, face: Face) -> None:
-        """Draw this face from now on."""
-        self._mesh.delete()
-        self._mesh = FaceMesh(face)
-
-    def draw(
-        self,
-        vertices: Floats,
-        view: View,
-        radius: float,
-        size: tuple[int, int],
-        samples: int,
-        background: Background,
-    ) -> NDArray[np.uint8]:
-        """(h, w, 4) BGRA, top row first; the same array until the size changes.
-
-        vertices  (n, 6), at rest within `radius` of the origin
-        samples   per pixel, 0 for hard edges
-        """
+    def begin(self, size: tuple[int, int], samples: int) -> None:
+        """A new picture of (w, h) pixels, `samples` each, 0 for hard edges."""
         width, height = (min(max(int(side), 1), self._largest) for side in size)
-        samples = min(samples, self._most_samples)
-        target = self._target(width, height, samples)
+        self._samples = min(samples, self._most_samples)
+        self._target = self._made_target(width, height, self._samples)
         GL.glEnable(GL.GL_DEPTH_TEST)
         GL.glDepthFunc(GL.GL_LEQUAL)
         GL.glDisable(GL.GL_BLEND)
-        self._mesh.update(vertices)
-        self._draw_mesh(target, view, radius, (width, height))
-        self._draw_backdrop(background)
-        return self._read(target, width, height, samples)
+        GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, self._target.name)
+        GL.glClear(GL.GL_DEPTH_BUFFER_BIT)
 
-    def _draw_mesh(self, target: _Target, view: View, radius: float, size: tuple[int, int]) -> None:
+    def add(self, face: Face, vertices: Floats, view: View, radius: float, place: Place, look: Look) -> None:
+        """Draw a face into (x, y, w, h) of the picture; nothing of it comes to stand outside.
+
+        vertices  (n, 6), at rest within `radius` of the origin
+        """
+        if face not in self._meshes:
+            self._meshes[face] = FaceMesh(face)
+        mesh = self._meshes[face]
+        mesh.update(vertices)
+        self._draw_mesh(mesh, view, radius, place, look)
+
+    def forget(self, but: Collection[Face]) -> None:
+        """Free the meshes of all other faces."""
+        for face in [face for face in self._meshes if face not in but]:
+            self._meshes.pop(face).delete()
+
+    def finish(self, background: Background) -> NDArray[np.uint8]:
+        """(h, w, 4) BGRA, top row first; the same array until the size changes."""
+        GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, self._target.name)
+        GL.glViewport(0, 0, *self._size)
+        self._draw_backdrop(background)
+        return self._read()
+
+    def _draw_mesh(self, mesh: FaceMesh, view: View, radius: float, place: Place, look: Look) -> None:
         from_mesh = view.matrix()
         reach = shadow_reach(view, radius)
-        to_light = camera_to_light(view, reach) @ from_mesh
+        key_from = _unit(look.light.key_from)
+        to_light = camera_to_light(view, reach, key_from) @ from_mesh
         # The side the camera is on. 0 is no cut: some drivers clip whether clipping is on or not.
         cut = math.copysign(1.0, from_mesh[2, 0]) if view.cutaway else 0.0
         GL.glEnable(GL.GL_CLIP_DISTANCE0)
@@ -118,28 +128,40 @@ class FaceGL(Renderer):  # type: ignore[misc]
         GL.glEnable(GL.GL_DEPTH_CLAMP)  # what is nearer to the light than the map reaches casts, too
         program = self._program("shadow")
         self._set_matrix(program, "to_light", to_light)
-        self._mesh.draw(cut, self._location(program, "cut"))
+        mesh.draw(cut, self._location(program, "cut"))
         GL.glDisable(GL.GL_DEPTH_CLAMP)
 
-        GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, target.name)
-        GL.glViewport(0, 0, *size)
-        GL.glClear(GL.GL_DEPTH_BUFFER_BIT)
+        GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, self._target.name)
+        GL.glViewport(*place)
         # The picture is drawn upside down, so that the read-back needs no flip: its first row is the top.
         GL.glFrontFace(GL.GL_CW)
         program = self._program("face")
         self._shadow.bind()
         self._set_matrix(program, "view", from_mesh)
-        self._set_matrix(program, "projection", _UPSIDE_DOWN @ view.projection(size, radius))
+        self._set_matrix(program, "projection", _UPSIDE_DOWN @ view.projection(place[2:], radius))
         self._set_matrix(program, "to_light", to_light)
         GL.glUniform1f(self._location(program, "off"), SHADOW_OFFSET * reach)
-        GL.glUniform3f(self._location(program, "key_from"), *KEY_FROM)
+        self._set_light(program, key_from, look.light, look.background)
         # Inner sides are drawn, too: users' rigs have single-sided lashes and hair. But after the outer
         # sides, which hide most of them before they cost any shading.
         for culled in (GL.GL_BACK, GL.GL_FRONT):
             GL.glCullFace(culled)
-            self._mesh.draw(cut, self._location(program, "cut"))
+            mesh.draw(cut, self._location(program, "cut"))
         GL.glDisable(GL.GL_CULL_FACE)
         GL.glDisable(GL.GL_CLIP_DISTANCE0)
+
+    def _set_light(
+        self, program: ShaderProgram, key_from: NDArray[np.float64], light: Light, background: Background
+    ) -> None:
+        for name, three in (
+            ("key_from", key_from),
+            ("rim_from", _unit(light.rim_from)),
+            ("key", background.key),
+            ("sky", background.sky),
+            ("bounce", background.bounce),
+            ("rim_light", background.rim),
+        ):
+            GL.glUniform3f(self._location(program, name), *three)
 
     def _draw_backdrop(self, background: Background) -> None:
         """Last, where no face is: what is hidden is not shaded."""
@@ -147,13 +169,14 @@ class FaceGL(Renderer):  # type: ignore[misc]
         GL.glUniform3f(self._location(program, "top"), *background.top)
         GL.glUniform3f(self._location(program, "bottom"), *background.bottom)
         GL.glUniform1f(self._location(program, "glow"), background.glow)
+        GL.glUniform1f(self._location(program, "checker"), background.checker * min(self._size))
         GL.glBindVertexArray(self._no_vertices)
         GL.glDrawArrays(GL.GL_TRIANGLES, 0, 3)
         GL.glBindVertexArray(0)
 
     def delete(self) -> None:
         """Free everything on the card."""
-        self._mesh.delete()
+        self.forget(())
         self._delete_targets()
         self._shadow.delete()
         GL.glDeleteVertexArrays(1, [self._no_vertices])
@@ -162,7 +185,7 @@ class FaceGL(Renderer):  # type: ignore[misc]
     def __del__(self) -> None:  # the base class frees from whatever thread collects it, without the context
         pass
 
-    def _target(self, width: int, height: int, samples: int) -> _Target:
+    def _made_target(self, width: int, height: int, samples: int) -> _Target:
         if (width, height) != self._size:
             self._delete_targets()
             self._size = (width, height)
@@ -176,9 +199,11 @@ class FaceGL(Renderer):  # type: ignore[misc]
             target.delete()
         self._targets.clear()
 
-    def _read(self, target: _Target, width: int, height: int, samples: int) -> NDArray[np.uint8]:
-        if samples:
-            plain = self._target(width, height, 0)
+    def _read(self) -> NDArray[np.uint8]:
+        width, height = self._size
+        target = self._target
+        if self._samples:
+            plain = self._made_target(width, height, 0)
             GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, target.name)
             GL.glBindFramebuffer(GL.GL_DRAW_FRAMEBUFFER, plain.name)
             whole = (0, 0, width, height)
@@ -207,3 +232,9 @@ class FaceGL(Renderer):  # type: ignore[misc]
 
     def _set_matrix(self, program: ShaderProgram, name: str, matrix: NDArray[Any]) -> None:
         GL.glUniformMatrix4fv(self._location(program, name), 1, GL.GL_TRUE, np.ascontiguousarray(matrix, np.float32))
+
+
+def _unit(direction: tuple[float, float, float]) -> NDArray[np.float64]:
+    vector = np.array(direction)
+    unit: NDArray[np.float64] = vector / np.linalg.norm(vector)
+    return unit

@@ -12,8 +12,6 @@ from .view import View
 
 _SHADOW_SIZE = 512
 
-#: Unit vector towards the key light, in the camera's space: the face turns, the studio does not.
-KEY_FROM = np.array([-0.46, 0.64, 0.62]) / np.linalg.norm([-0.46, 0.64, 0.62])
 #: How far above the surface to ask for shadow, in the map's reach: five texels, as the shader reads that far.
 SHADOW_OFFSET = 0.022
 
@@ -66,11 +64,11 @@ def shadow_reach(view: View, radius: float) -> float:
     return min(1.25 * seen, radius + math.dist(view.target, (0.0, 0.0, 0.0)))
 
 
-def camera_to_light(view: View, reach: float) -> NDArray[np.float64]:
-    """(4, 4) from the camera's space to the shadow map's, -1…1."""
-    right = np.cross((0.0, 1.0, 0.0), KEY_FROM)
+def camera_to_light(view: View, reach: float, key_from: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(4, 4) from the camera's space to the shadow map's, -1…1, for a light in the unit direction `key_from`."""
+    right = np.cross((0.0, 1.0, 0.0), key_from)
     right /= np.linalg.norm(right)
     matrix = np.eye(4)
-    matrix[:3, :3] = np.stack([right, np.cross(KEY_FROM, right), -KEY_FROM]) / reach
+    matrix[:3, :3] = np.stack([right, np.cross(key_from, right), -key_from]) / reach
     matrix[:3, 3] = matrix[:3, 2] * view.distance  # the target goes to the middle
     return matrix

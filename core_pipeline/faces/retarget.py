@@ -20,8 +20,10 @@ ENOUGH = 0.5
 #: Name of the mapping in which every pose is the shape of the same name.
 OWN_NAMES = "own names"
 
+_NONE: Mapping[str, Mix] = MappingProxyType({})
 _SIDE = re.compile(r"(left|right)$")
 _ONE_SIDE = re.compile(r"_?(Left|Right|[UD]?[LR])$")
+_PREFIX = re.compile(r"^(ctrlexpressions|.*(?=fcl(mth|eye|brw|all|ha)))")
 _COPY = re.compile(r"\.\d+$")
 
 
@@ -62,11 +64,11 @@ def normalised(name: str) -> str:
     """A shape's name as it is compared: no prefix, no case, no separators, sides as l and r.
 
     "Head.mouthSmile_L" and "mouth smile left" are one; the ".001" some programs append is no name, and neither
-    is MetaHuman's "CTRL_expressions".
+    is MetaHuman's "CTRL_expressions" or what VRoid writes before "Fcl_".
     """
     plain = _COPY.sub("", name).rpartition(".")[2].casefold()
     plain = plain.replace("_", "").replace(" ", "").replace("-", "")
-    return _SIDE.sub(lambda side: side[0][0], plain.removeprefix("ctrlexpressions"))
+    return _SIDE.sub(lambda side: side[0][0], _PREFIX.sub("", plain))
 
 
 class Rig:
@@ -88,24 +90,33 @@ class Rig:
         return sum(bool(self.shapes(name, preset)) for name in preset.names)
 
 
-def best(shapes: Sequence[str], presets: Iterable[Preset], poses: Sequence[str] = FACEFX) -> Retarget:
+def best(
+    shapes: Sequence[str],
+    presets: Iterable[Preset],
+    poses: Sequence[str] = FACEFX,
+    expressions: Mapping[str, Mix] = _NONE,
+) -> Retarget:
     """The preset that knows most of the rig's names, applied; the rig's own names where they are the poses.
 
-    poses  the pose set of the curves that shall play; poses no preset knows are looked for by name
+    poses        the pose set of the curves that shall play; poses no preset knows are looked for by name
+    expressions  what the rig's author made of its shapes: names that count as much as shapes do
     """
-    rig = Rig(shapes)
+    rig = Rig((*shapes, *expressions))
     own = Preset(OWN_NAMES, "its own pose names", {pose: {pose: 1.0} for pose in poses}, names=frozenset(poses))
     overlaps = [(rig.overlap(preset), preset) for preset in (*presets, own)]
     most, chosen = max(overlaps, key=lambda found: found[0])
     if not most:
         told = f"No naming convention fits these shapes ({_listed(shapes)}): say yourself what makes each pose."
         return Retarget(OWN_NAMES, own.title, MappingProxyType({}), tuple(poses), (told,))
-    return apply(chosen, shapes, poses)
+    return apply(chosen, shapes, poses, expressions)
 
 
-def apply(preset: Preset, shapes: Sequence[str], poses: Sequence[str] = FACEFX) -> Retarget:
+def apply(
+    preset: Preset, shapes: Sequence[str], poses: Sequence[str] = FACEFX, expressions: Mapping[str, Mix] = _NONE
+) -> Retarget:
     """The poses as this rig can make them by `preset`."""
-    rig = Rig(shapes)
+    made_of = {name: mix for name, mix in expressions.items() if name not in shapes}
+    rig = Rig((*made_of, *shapes))
     made: dict[str, Mix] = {}
     notes: list[str] = []
     for pose in poses:
@@ -113,13 +124,22 @@ def apply(preset: Preset, shapes: Sequence[str], poses: Sequence[str] = FACEFX) 
         mix, lacking = _mixed(rig, preset, wanted)
         if not mix or _share(wanted, lacking) > ENOUGH * _share(wanted, wanted):
             continue
-        made[pose] = MappingProxyType(mix)
+        made[pose] = MappingProxyType(_in_shapes(mix, made_of))
         if lacking:
             notes.append(f"{pose} is made without {', '.join(lacking)}: the rig has no such shape.")
     missing = tuple(pose for pose in poses if pose not in made)
     if missing:
         notes.append(f"Not available on this face: {', '.join(missing)}.")
     return Retarget(preset.name, preset.title, MappingProxyType(made), missing, tuple(notes))
+
+
+def _in_shapes(mix: Mix, expressions: Mapping[str, Mix]) -> dict[str, float]:
+    """A mix of shapes and expressions as one of shapes alone."""
+    amounts: dict[str, float] = {}
+    for name, amount in mix.items():
+        for shape, part in expressions.get(name, {name: 1.0}).items():
+            amounts[shape] = max(amounts.get(shape, 0.0), amount * part)
+    return amounts
 
 
 def _share(wanted: Mix, names: Iterable[str]) -> float:

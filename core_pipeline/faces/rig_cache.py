@@ -21,7 +21,7 @@ from core_pipeline.faces.face import Camera, Face
 from core_pipeline.faces.limits import MAX_FILE
 from core_pipeline.files.atomic import write_atomically
 
-FORMAT = "lipstitch-rig-cache.1"
+FORMAT = "lipstitch-rig-cache.2"
 #: Bytes of all rigs kept; the ones opened longest ago go first.
 MAX_KEPT = 2**30
 
@@ -55,6 +55,7 @@ def recall(rig: Path, cache: Path) -> tuple[Face, tuple[str, ...]] | None:
             title=about["title"],
             shapes=tuple(about["shapes"]),
             parts={name: (first, count) for name, (first, count) in about["parts"].items()},
+            expressions=about["expressions"],
             camera=Camera(**camera),
             **arrays,
         )
@@ -77,6 +78,7 @@ def keep(rig: Path, files: Iterable[Path], face: Face, notes: tuple[str, ...], c
         "title": face.title,
         "shapes": face.shapes,
         "parts": face.parts,
+        "expressions": face.expressions,
         "camera": asdict(face.camera),
         "notes": notes,
     }

@@ -23,7 +23,7 @@ def decode_json(data: bytes, place: str) -> dict[str, Any]:
 
     UTF-8 with or without BOM, and UTF-16 with BOM, are read.
     """
-    text = _text(data, place)
+    text = decode_text(data, place)
     try:
         value = json.loads(text, object_pairs_hook=_no_doubles, parse_constant=_no_constant, parse_float=_finite)
     except json.JSONDecodeError as error:
@@ -49,7 +49,8 @@ def decode_json(data: bytes, place: str) -> dict[str, Any]:
     return value
 
 
-def _text(data: bytes, place: str) -> str:
+def decode_text(data: bytes, place: str) -> str:
+    """The text of a file in UTF-8, with or without BOM, or UTF-16 with BOM; UserError when it is none."""
     encoding = "utf-8-sig"
     if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         encoding = "utf-16"

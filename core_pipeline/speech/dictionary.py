@@ -9,6 +9,7 @@ from __future__ import annotations
 import importlib.util
 import re
 import unicodedata
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
@@ -59,6 +60,13 @@ class Dictionary:
         start += len(word) + 2
         phones = self._lines[start : self._lines.index("\n", start)].lower().split()
         return tuple("h" if phone == "hh" else phone for phone in phones)
+
+    def entries(self) -> Iterator[tuple[str, tuple[str, ...]]]:
+        """Every listed word of letters alone with its first pronunciation."""
+        for line in self._lines.splitlines():
+            word, _, phones = line.partition(" ")
+            if len(word) > 1 and word.isalpha():
+                yield word, tuple("h" if phone == "HH" else phone.lower() for phone in phones.split())
 
     def speak(self, sentence: Sentence, rate: int = _USUAL_RATE) -> Utterance:
         """The sentence with mean durations, scaled to `rate` words per minute; notes name guessed words.

@@ -34,15 +34,16 @@ def test_curves_are_built_as_they_are_shipped(tmp_path, capsys):
 
 
 def test_without_names_all_are_built(tmp_path, capsys, monkeypatch):
-    for name in ("crab.toml", "english.toml"):
+    names = sorted(path.stem for path in (ROOT / "assets" / "curves").glob("*.toml"))
+    for name in (f"{name}.toml" for name in names):
         (tmp_path / "curves").mkdir(exist_ok=True)
         (tmp_path / "curves" / name).write_bytes(english_curves().with_name(name).read_bytes())
     monkeypatch.setattr("app.resources.assets", lambda: tmp_path)
     assert cli.main(["build-curves"]) == 0
     assert capsys.readouterr().out.split() == [
-        str(tmp_path / "curves" / f"{name}.json") for name in ("crab", "english")
+        str(tmp_path / "curves" / f"{name}.json") for name in (*names, "curve_set.schema")
     ]
-    for name in ("crab", "english"):
+    for name in (*names, "curve_set.schema"):
         shipped = ROOT / "assets" / "curves" / f"{name}.json"
         assert (tmp_path / "curves" / shipped.name).read_bytes() == shipped.read_bytes()
 

@@ -59,3 +59,17 @@ def test_a_rig_speaks(tmp_path, capsys):
     assert max(np.abs(picture - pictures[0]).max() for picture in pictures) > 10, "it never moved"
     assert main(["render", "Wow.", "--face", str(tmp_path / "no.glb"), "--out", str(tmp_path / "none")]) == 2
     assert not (tmp_path / "none").exists()
+
+
+def test_a_new_curve_set_over_the_rigs_own_poses(tmp_path, capsys):
+    path, out = as_glb(head(["beak open", "beak shut", "blink"]), tmp_path / "bird.glb"), tmp_path / "bird.json"
+    assert main(["face", str(path), "--new-set", str(out)]) == 0
+    assert capsys.readouterr().out.splitlines()[-1] == f"An empty curve set over 2 poses in {out}."
+    assert main(["check", str(out)]) == 0
+    assert main(["face", str(path), "--curves", str(out)]) == 0
+    assert "  beak shut = 1 beak shut" in capsys.readouterr().out.splitlines()
+    kept = out.read_bytes()
+    for name, why in (("bird.json", "already there"), ("bird.toml", "name the curve set .json")):
+        assert main(["face", str(path), "--new-set", str(tmp_path / name)]) == 2
+        assert why in capsys.readouterr().err
+    assert out.read_bytes() == kept

@@ -9,7 +9,10 @@ from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.document import Document
+from app.exchange import Exchange
 from app.file_actions import FileActions
+from app.keeping import journal
+from app.keeping.journal import Kept
 from app.session import Session
 from app.settings import ViewState
 from core_pipeline.curve_set import CurveSet
@@ -60,10 +63,15 @@ def document(qtbot: QtBot) -> Document:
 def files(document: Document, user: Answers, tmp_path: Path, qtbot: QtBot) -> Iterator[FileActions]:
     window = QWidget()
     qtbot.addWidget(window)
-    files = FileActions(window, document, Session(document.curve_set, window), ViewState(tmp_path / "state"))
+    files = FileActions(window, document, ViewState(tmp_path / "state"))
     yield files
-    files.autosave.finish()
+    files.close()
     QCoreApplication.processEvents()
+
+
+@pytest.fixture
+def exchange(files: FileActions, document: Document) -> Exchange:
+    return Exchange(files, Session(document.curve_set, files))
 
 
 def edit(document: Document) -> None:
@@ -120,11 +128,11 @@ def test_names_from_a_file_are_never_read_as_markup(files: FileActions, user: An
 
 
 def test_export_writes_readable_or_small_and_keeps_the_document(
-    files: FileActions, document: Document, tmp_path: Path
+    exchange: Exchange, document: Document, tmp_path: Path
 ) -> None:
     edit(document)
-    assert files.export(tmp_path / "set.json")
-    assert files.export(tmp_path / "set.min.json")
+    assert exchange.export(tmp_path / "set.json")
+    assert exchange.export(tmp_path / "set.min.json")
     readable, small_ = (tmp_path / "set.json").read_text("utf-8"), (tmp_path / "set.min.json").read_text("utf-8")
     assert readable == curve_set_json.dumps(document.curve_set)
     assert small_.count("\n") == 1
@@ -133,29 +141,27 @@ def test_export_writes_readable_or_small_and_keeps_the_document(
     assert document.is_dirty
 
 
-def test_weights_are_exported_in_either_format(
-    files: FileActions, document: Document, user: Answers, tmp_path: Path
-) -> None:
-    files.ask_export_weights()
+def test_weights_are_exported_in_either_format(exchange: Exchange, user: Answers, tmp_path: Path) -> None:
+    exchange.ask_export_weights()
     assert user.said == ["There is no sentence yet: type one first."]
-    session = files._session
+    session = exchange._session
     session.set_curve_set(small.curve_set())
     session.set_utterance(Utterance("f ah", small.schedule("f ah d")))
     session.recompute()
     for name in ("w.json", "w.csv"):
         user.file = (str(tmp_path / name), "")
-        files.ask_export_weights()
+        exchange.ask_export_weights()
         assert (tmp_path / name).stat().st_size > 100
-    assert not files.export_weights(tmp_path / "w.txt")
+    assert not exchange.export_weights(tmp_path / "w.txt")
     assert "name the file .json or .csv" in user.said[-1]
 
 
 def left_over(files: FileActions, name: str, pid: int) -> Path:
     """What a session with this process number left when it was killed."""
-    copy = files.autosave.copy.with_name(f"{pid}.json")
-    copy.parent.mkdir(parents=True, exist_ok=True)
-    curve_set_json.save(CurveSet(name=name), copy)
-    return copy
+    file = files.autosave.journal.with_name(f"{pid}.journal")
+    file.parent.mkdir(parents=True, exist_ok=True)
+    journal.begin(file, Kept(CurveSet(name=name), None, ""))
+    return file
 
 
 def gone(own: int) -> int:
@@ -163,24 +169,26 @@ def gone(own: int) -> int:
     return 2**22 + own
 
 
-def test_recovered_work_keeps_a_copy_even_if_the_dead_session_had_our_number(
+def test_recovered_work_keeps_a_journal_even_if_the_dead_session_had_our_number(
     files: FileActions, document: Document, user: Answers
 ) -> None:
-    copy = left_over(files, "Rescued", int(files.autosave.copy.stem))
+    copy = left_over(files, "Rescued", int(files.autosave.journal.stem))
     user.buttons = [Button.Yes]
     files.offer_recovery()
     assert "Unsaved work on “Rescued”" in user.said[0]
     assert document.curve_set.name == "Rescued"
     assert document.is_dirty
-    assert curve_set_json.load(copy).name == "Rescued"
+    assert journal.read(copy).curve_set.name == "Rescued"
 
 
-def test_recovered_work_moves_to_a_copy_of_this_session(files: FileActions, document: Document, user: Answers) -> None:
+def test_recovered_work_moves_to_a_journal_of_this_session(
+    files: FileActions, document: Document, user: Answers
+) -> None:
     copy = left_over(files, "Rescued", gone(1))
     user.buttons = [Button.Yes]
     files.offer_recovery()
     assert not copy.exists()
-    assert curve_set_json.load(files.autosave.copy).name == "Rescued"
+    assert journal.read(files.autosave.journal).curve_set.name == "Rescued"
 
 
 def test_what_is_not_wanted_is_forgotten_and_only_that(files: FileActions, document: Document, user: Answers) -> None:

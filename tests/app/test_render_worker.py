@@ -9,7 +9,7 @@ from PySide6.QtGui import QImage
 
 from app.gl_platform import QtPlatform, make_platform
 from app.render_worker import RenderWorker
-from core_pipeline.faces.render import FaceRenderer
+from core_pipeline.faces.render import FaceRenderer, Figure
 from core_pipeline.faces.render_context import process_context
 from core_pipeline.faces.view import View
 from tests.helpers.ball import ball
@@ -17,6 +17,7 @@ from tests.helpers.ball import ball
 BALL = ball()
 VIEW = View.of(BALL.camera)
 REST = np.zeros(2, np.float32)
+STILL = [Figure(BALL, REST, VIEW)]
 SIZE = (64, 48)
 
 
@@ -31,7 +32,6 @@ class Frames(list):
 @pytest.fixture
 def worker(qtbot):
     worker = RenderWorker()
-    worker.set_face(BALL)
     yield worker
     worker.stop()
     assert worker.isFinished() or not worker.isRunning()
@@ -45,7 +45,7 @@ def pixels(image: QImage):
 def test_a_wish_becomes_a_frame_at_its_time(qtbot, worker):
     worker.start()
     with qtbot.waitSignal(worker.frame, timeout=5000) as caught:
-        worker.request(REST, VIEW, SIZE, 1.25)
+        worker.request(STILL, SIZE, 1.25)
     image, time, milliseconds = caught.args
     assert (image.width(), image.height()) == SIZE
     assert time == 1.25
@@ -55,7 +55,7 @@ def test_a_wish_becomes_a_frame_at_its_time(qtbot, worker):
 def test_a_still_picture_is_drawn_again_in_full_quality_and_then_no_more(qtbot, worker):
     worker.start()
     frames = Frames(worker)
-    worker.request(REST, VIEW, SIZE, 0.5)
+    worker.request(STILL, SIZE, 0.5)
     qtbot.waitUntil(lambda: len(frames) == 2, timeout=5000)
     renderer = FaceRenderer(BALL)
     for (image, time, _), full_quality in zip(frames, (False, True), strict=True):
@@ -69,10 +69,10 @@ def test_a_still_picture_is_drawn_again_in_full_quality_and_then_no_more(qtbot, 
 def test_frames_keep_their_pixels_while_others_are_drawn(qtbot, worker):
     worker.start()
     frames = Frames(worker)
-    worker.request(REST, VIEW, SIZE, 0.0)
+    worker.request(STILL, SIZE, 0.0)
     qtbot.waitUntil(lambda: len(frames) == 1, timeout=5000)
     before = pixels(frames[0][0])
-    worker.request(np.ones(2, np.float32), VIEW.orbited(90, 40), SIZE, 1.0)
+    worker.request([Figure(BALL, np.ones(2, np.float32), VIEW.orbited(90, 40))], SIZE, 1.0)
     qtbot.waitUntil(lambda: any(time == 1.0 for _, time, _ in frames), timeout=5000)
     np.testing.assert_array_equal(pixels(frames[0][0]), before)
     assert not np.array_equal(pixels(frames[-1][0]), before)
@@ -81,7 +81,7 @@ def test_frames_keep_their_pixels_while_others_are_drawn(qtbot, worker):
 def test_the_latest_wish_wins_and_the_others_are_counted(qtbot, worker):
     frames = Frames(worker)
     for time in range(5):  # before the thread runs: only one can be waiting
-        worker.request(REST, VIEW, SIZE, float(time))
+        worker.request(STILL, SIZE, float(time))
     assert worker.dropped == 4
     worker.start()
     qtbot.waitUntil(lambda: len(frames) == 2, timeout=5000)
@@ -91,7 +91,7 @@ def test_the_latest_wish_wins_and_the_others_are_counted(qtbot, worker):
 def test_the_amounts_of_a_wish_may_change_after_it(qtbot, worker):
     amounts = REST.copy()
     frames = Frames(worker)
-    worker.request(amounts, VIEW, SIZE, 0.0)
+    worker.request([Figure(BALL, amounts, VIEW)], SIZE, 0.0)
     amounts[:] = 1.0
     worker.start()
     qtbot.waitUntil(lambda: len(frames) >= 1, timeout=5000)
@@ -104,43 +104,29 @@ def test_the_last_wish_of_many_is_always_drawn(qtbot, worker):
     worker.start()
     frames = Frames(worker)
     for step in range(300):
-        worker.request(np.full(2, step / 300, np.float32), VIEW, SIZE, float(step))
+        worker.request([Figure(BALL, np.full(2, step / 300, np.float32), VIEW)], SIZE, float(step))
     qtbot.waitUntil(lambda: len(frames) > 1 and [time for _, time, _ in frames[-2:]] == [299.0, 299.0], timeout=10000)
     times = [time for _, time, _ in frames]
     assert times == sorted(times)
     assert len(set(times)) + worker.dropped == 300
 
 
-def test_a_new_face_forgets_wishes_for_the_old_one(qtbot, worker):
+def test_another_face_takes_the_place_of_the_old_one(qtbot, worker):
     frames = Frames(worker)
-    worker.request(REST, VIEW, SIZE, 0.0)
-    worker.set_face(ball(12, colour=(0.0, 0.0, 0.9, 0.0)))
-    worker.request(REST, VIEW, SIZE, 7.0)
     worker.start()
+    worker.request(STILL, SIZE, 0.0)
     qtbot.waitUntil(lambda: len(frames) >= 1, timeout=5000)
-    image, time, _ = frames[0]
-    assert time == 7.0
-    assert image.pixelColor(32, 24).blue() > image.pixelColor(32, 24).red()
-
-
-def test_amounts_of_another_face_are_refused_at_once(worker):
-    with pytest.raises(ValueError, match="2 amounts"):
-        worker.request(np.zeros(3, np.float32), VIEW, SIZE, 0.0)
-
-
-def test_without_a_face_nothing_happens(qtbot):
-    worker = RenderWorker()
-    worker.start()
-    with qtbot.assertNotEmitted(worker.frame, wait=50):
-        worker.request(REST, VIEW, SIZE, 0.0)
-    worker.stop()
+    worker.request([Figure(ball(12, colour=(0.0, 0.0, 0.9, 0.0)), REST, VIEW)], SIZE, 7.0)
+    qtbot.waitUntil(lambda: frames[-1][1] == 7.0, timeout=5000)
+    colour = frames[-1][0].pixelColor(32, 24)
+    assert colour.blue() > colour.red()
 
 
 def test_stop_ends_the_thread_and_start_goes_on(qtbot, worker):
     for time in (1.0, 2.0):
         worker.start()
         with qtbot.waitSignal(worker.frame, timeout=5000, check_params_cb=lambda _, at, __, t=time: at == t):
-            worker.request(REST, VIEW, SIZE, time)
+            worker.request(STILL, SIZE, time)
         worker.stop()
         assert worker.isFinished()
     worker.stop()
@@ -152,7 +138,7 @@ def test_the_main_thread_may_draw_at_the_same_time(qtbot, worker):
     renderer = FaceRenderer(BALL)
     first = renderer.frame(REST, VIEW, SIZE, False).copy()
     for step in range(30):
-        worker.request(REST, VIEW, SIZE, float(step))
+        worker.request(STILL, SIZE, float(step))
         np.testing.assert_array_equal(renderer.frame(REST, VIEW, SIZE, False), first)
     renderer.close()
     qtbot.waitUntil(lambda: bool(frames) and frames[-1][1] == 29.0, timeout=5000)
@@ -167,10 +153,9 @@ def test_drawing_happens_in_the_workers_own_thread(qtbot):
             super().make_current()
 
     worker = RenderWorker(platform=Watched(works=True))
-    worker.set_face(BALL)
     worker.start()
     with qtbot.waitSignal(worker.frame, timeout=5000):
-        worker.request(REST, VIEW, SIZE, 0.0)
+        worker.request(STILL, SIZE, 0.0)
     worker.stop()
     assert set(seen) == {worker}
 
@@ -199,15 +184,14 @@ class Repaired:
 def test_failure_is_one_sentence_and_retry_draws_the_last_wish(qtbot):
     platform = Repaired()
     worker = RenderWorker(platform=platform)
-    worker.set_face(BALL)
     worker.start()
     frames = Frames(worker)
     with qtbot.waitSignal(worker.failed, timeout=5000) as caught:
-        worker.request(REST, VIEW, SIZE, 1.0)
+        worker.request(STILL, SIZE, 1.0)
     assert "no OpenGL on this machine (the driver is missing)" in caught.args[0]
 
     with qtbot.assertNotEmitted(worker.failed, wait=50):  # it says so once, not with every wish
-        worker.request(REST, VIEW, SIZE, 2.0)
+        worker.request(STILL, SIZE, 2.0)
     with qtbot.waitSignal(worker.failed, timeout=5000):
         worker.retry()
     platform.works = True

@@ -54,7 +54,9 @@ def settled(editor: Editor, qtbot: QtBot) -> np.ndarray:
     frames: list[QImage] = []
     editor.preview.frame_ready.connect(frames.append)
     editor.preview.refresh()
-    qtbot.waitUntil(lambda: len(frames) >= 2, timeout=20_000)  # at once, and in full quality
+    size = editor.window.face_view.frame_size
+    # At once, and in full quality; what was still under way may have had another size.
+    qtbot.waitUntil(lambda: sum(frame.size() == size() for frame in frames) >= 2, timeout=20_000)
     editor.preview.frame_ready.disconnect(frames.append)
     return pixels(frames[-1])
 
@@ -83,13 +85,13 @@ def test_a_rig_is_taught_live_saved_and_found_again(editor: Editor, qtbot: QtBot
     item = panel.poses.findItems("tBack", Qt.MatchFlag.MatchExactly)[0]
     assert item.toolTip() == "tBack: not available on this face"
     preview.orbit(30, 0)
-    view, wide_open = preview._view, settled(editor, qtbot)
+    view, wide_open = preview.views, settled(editor, qtbot)
 
     slide(editor, "jawOpen", 0.1)
     assert jaw(editor) == pytest.approx(0.15, abs=0.01)
     nearly_shut = settled(editor, qtbot)
     assert (np.abs(nearly_shut.astype(int) - wide_open) > 24).mean() > 0.005
-    assert preview._view == view  # the camera stays where the user put it
+    assert preview.views == view  # the camera stays where the user put it
     assert panel.preset.currentText() == "Own mix"
 
     assert panel.save.isEnabled()
@@ -196,3 +198,18 @@ def test_a_held_pose_gives_way_to_playing(editor: Editor, qtbot: QtBot, rig: Pat
     qtbot.waitUntil(lambda: not editor.window.mapping_panel.hold.isChecked(), timeout=20_000)
     qtbot.waitUntil(lambda: 0 < weights[-1][poses.index("FV")] < 1, timeout=20_000)
     editor.preview.toggle_bigram()
+
+
+def test_a_rigs_own_names_become_a_pose_set(editor: Editor, qtbot: QtBot, tmp_path: Path) -> None:
+    """From the menu: an empty set, settings that fit, and a face that makes its poses."""
+    bird = rigs.as_glb(rigs.head(("beak open", "beak shut", "browUp"), rings=16), tmp_path / "bird.glb")
+    open_rig(editor, qtbot, bird)
+    with qtbot.waitSignal(editor.faces.opened, timeout=20_000):
+        editor.window.actions_.new_set_for_face.trigger()
+    curve_set = editor.document.curve_set
+    assert curve_set.poses == ("beak open", "beak shut")
+    assert curve_set.effective_settings.priorities == ("beak open", "beak shut")
+    assert not curve_set.bigrams
+    face = editor.preview.face
+    assert face is not None
+    assert face.mix("beak open") == {"beak open": 1.0}

@@ -15,6 +15,7 @@ from pytestqt.qtbot import QtBot
 from app import resources
 from app.editor import Editor
 from core_pipeline.curve_set import CurveSet
+from core_pipeline.faces.render import Figure
 from core_pipeline.files import curve_set_json
 from core_pipeline.pipeline import Stages
 from core_pipeline.settings import Settings
@@ -85,8 +86,8 @@ def test_type_drag_undo_save_reload_export(editor: Editor, qtbot: QtBot, tmp_pat
     saved, exported, weights = tmp_path / "mine.json", tmp_path / "engine.min.json", tmp_path / "weights.csv"
     editor.document.save(saved)
     assert not editor.window.isWindowModified()
-    assert editor.files.export(exported)
-    assert editor.files.export_weights(weights)
+    assert editor.wiring.exchange.export(exported)
+    assert editor.wiring.exchange.export_weights(weights)
     text = saved.read_text("utf-8")
 
     editor.files.open(saved)
@@ -317,7 +318,12 @@ def test_a_new_set_never_plays_through_the_poses_of_the_old_one(editor: Editor, 
     editor.preview.set_lively(False)
     asked: list[float] = []
     request = editor.preview.worker.request
-    editor.preview.worker.request = lambda amounts, *rest: (asked.append(float(amounts.max())), request(amounts, *rest))
+
+    def watched(figures: list[Figure], *rest: object) -> None:
+        asked.append(float(figures[0].amounts.max()))
+        request(figures, *rest)
+
+    editor.preview.worker.request = watched
     editor.preview.scrub(0.5)
     qtbot.waitUntil(lambda: bool(asked) and asked[-1] > 0, timeout=20_000)
     toon = editor.preview.face

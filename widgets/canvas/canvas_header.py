@@ -46,6 +46,7 @@ class CanvasHeader(QWidget):
         self._word, self._span = "", (0, 0)
         self._used: int | None = None
         self._status = ""
+        self._spent = ""
         self._title = QLabel()
         self._title.setFont(theme.font(15, bold=True))
         self._title.setAccessibleName(self.tr("Open bigram"))
@@ -113,6 +114,11 @@ class CanvasHeader(QWidget):
             self._status = status
             self._show()
 
+    def set_time_spent(self, text: str) -> None:
+        """How long the user has worked on the bigram, shown where there is room for it."""
+        self._spent = text
+        self._show()
+
     def set_snap(self, on: bool) -> None:
         """Whether keys keep to the grid."""
         self._snap.setChecked(on)
@@ -174,6 +180,9 @@ class CanvasHeader(QWidget):
         parts = self._parts()
         if self._length(parts) > room:
             parts = self._parts(short=True)
+        spent = (self._spent, f'<span style="color:{theme.FAINT.name()}">{escape(self._spent)}</span>')
+        if self._spent and self._length([*parts, spent]) <= room:
+            parts.append(spent)
         while parts and self._length(parts) > room:
             parts.pop(0)
         self._detail.setText(_GAP.join(rich for _, rich in parts))

@@ -160,8 +160,8 @@ class CurveCanvas(CurveCompare):
 
     # Single actions, also for menus
 
-    def do(self, action: str) -> None:
-        """Does one of the keymaps' actions, as its key would outside of a gesture; KeyError for any other."""
+    def act(self, action: str) -> None:
+        """Does what the key of a keymap's action does; KeyError when there is no such action."""
         self._acts[action]()
 
     def select_all(self) -> None:

@@ -187,6 +187,14 @@ def draw_ghost(painter: QPainter, place: RowPlace, before: PoseLines, now: PoseL
     _draw_change(painter, place, now.stage["magenta"], before.stage["magenta"], _GHOST)
 
 
+def draw_other(painter: QPainter, place: RowPlace, lines: PoseLines, style: StageStyle) -> None:
+    """The final curve of another curve set, dashed beside the present one's solid line."""
+    pen = QPen(theme.mix(style.colour, theme.BRIGHT, 0.45), 1)
+    pen.setDashPattern([5, 4])
+    painter.setPen(pen)
+    _draw_thin(painter, place, [lines.stage["magenta"]])
+
+
 def draw_origin(painter: QPainter, place: RowPlace, curve: Line, style: StageStyle) -> None:
     """The one red curve that made the place under the mouse, brighter than the others."""
     _draw_bold(painter, place, curve, QPen(theme.mix(style.colour, theme.BRIGHT, 0.75), 2))

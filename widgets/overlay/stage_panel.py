@@ -14,6 +14,7 @@ from core_pipeline.pipeline import Stages
 from .. import theme
 from .stage_chip import StageChip
 from .stage_layers import LAYERS
+from .stage_marks import Mark
 from .stage_overlay import StageOverlay
 from .stage_picking import Reading
 from .stage_rows import MODES
@@ -114,6 +115,14 @@ class StagePanel(QWidget):
     def set_ghost(self, stages: Stages | None) -> None:
         """An earlier result, its final curves in grey under the present ones."""
         self.overlay.set_ghost(stages)
+
+    def set_other(self, stages: Stages | None) -> None:
+        """What another curve set makes of the sentence, its final curves dashed; None for none."""
+        self.overlay.set_other(stages)
+
+    def set_marks(self, marks: Sequence[Mark]) -> None:
+        """What is weak, where it is."""
+        self.overlay.set_marks(marks)
 
     def set_loop_range(self, loop: tuple[float, float] | None) -> None:
         """The part that is played in a loop, in seconds."""

@@ -19,8 +19,9 @@ from core_pipeline.pipeline import Stages
 from .. import theme
 from . import stage_backdrop as backdrop
 from .stage_footer import ROW, Footer
-from .stage_layers import LAYERS, RowPlace, draw_ghost, draw_origin
+from .stage_layers import LAYERS, RowPlace, draw_ghost, draw_origin, draw_other
 from .stage_lines import Line, PoseLines, pose_lines
+from .stage_marks import HALF, Mark, draw_marks
 from .stage_picking import Reading, curve_of
 from .stage_rows import MODES, Row, lay_out
 from .time_axis import TimeAxis
@@ -39,6 +40,8 @@ class StageView(QWidget):
         self._stages: Stages | None = None
         self._lines: dict[str, PoseLines] = {}
         self._ghost: dict[str, PoseLines] = {}
+        self._other: dict[str, PoseLines] = {}
+        self._marks: tuple[Mark, ...] = ()
         self._sources: tuple[str, ...] = ()
         self._active = ""
         self._index: int | None = None
@@ -121,6 +124,19 @@ class StageView(QWidget):
             if (now is None) != (pose not in before) or (now is not None and not now.same_as(before.get(pose))):
                 self._row_pixmaps.pop(pose, None)
                 self._update_row(pose)
+
+    def set_other(self, stages: Stages | None) -> None:
+        """What another curve set makes of the sentence, its final curves dashed; None for none."""
+        if stages is not None or self._other:
+            self._other = {} if stages is None else pose_lines(stages)
+            self._row_pixmaps.clear()
+            self._redraw()
+
+    def set_marks(self, marks: Sequence[Mark]) -> None:
+        """What is weak, where it is."""
+        if tuple(marks) != self._marks:
+            self._marks = tuple(marks)
+            self.update()
 
     def set_loop_range(self, loop: tuple[float, float] | None) -> None:
         """The part that is played in a loop, in seconds."""
@@ -248,6 +264,9 @@ class StageView(QWidget):
             for row in self._rows:
                 if event.rect().intersects(QRect(0, row.top, self.width(), row.height)):
                     painter.drawPixmap(0, row.top, self.row_pixmap(row))
+            first, last = (self._axis.left + (x - self._axis.x0) / self._axis.scale for x in _around(event.rect()))
+            marks = [mark for mark in self._marks if first <= mark.time <= last]
+            draw_marks(painter, marks, self._axis, self.row_of)
             self._paint_reading(painter, self._stages)
             backdrop.draw_playhead(painter, self._axis, self._playhead, self.height())
         if self.hasFocus():
@@ -333,8 +352,15 @@ class StageView(QWidget):
         for layer in LAYERS:
             if layer.name in self._shown:
                 layer.draw(painter, place, lines, self._styles[layer.name])
+        if (other := self._other.get(row.pose)) is not None:
+            draw_other(painter, place, other, self._styles["magenta"])
         painter.end()
         return pixmap
+
+
+def _around(rect: QRect) -> tuple[int, int]:
+    """The columns from which a mark reaches into `rect`."""
+    return rect.left() - HALF - 1, rect.right() + HALF + 1
 
 
 def _same_ground(one: Stages | None, other: Stages | None) -> bool:

@@ -22,6 +22,7 @@ from .phone_header import PhoneHeader, fits_level, header_font, widest
 
 MIN_CELL, MIN_TALL, MAX_CELL = 11, 9, 28  # pixels; a width of 11 only where the view must scroll as well
 _WIDER = 2  # a cell is at most this many times as wide as tall
+_FAINTEST = 0.45  # share of orange on the least weak cell
 _DIMMED = 0.35  # share of the fill left on cells that a search did not find
 
 
@@ -197,7 +198,12 @@ class BigramGrid(QTableView):
                 self._pixels[cell] = colours.get(status, colours["draft"])
         for pair in self.pairs.weak:
             if cell := self.pairs.cell(pair):
-                self._pixels[cell] = theme.WEAK.rgb()
+                share = self.pairs.weakness.get(pair, 1.0)
+                own = theme.STATUS_COLOURS.get(self.pairs.statuses.get(pair, "empty"), theme.WEAK)
+                self._pixels[cell] = theme.mix(theme.WEAK, own, _FAINTEST + (1 - _FAINTEST) * share).rgb()
+        for pair, amount in (self.pairs.differences or {}).items():
+            if cell := self.pairs.cell(pair):
+                self._pixels[cell] = theme.mix(theme.HIGHLIGHT, theme.SUNKEN, min(max(amount, 0.0), 1.0)).rgb()
         if self._found is not None:
             found = np.zeros((count, count), bool)
             for pair in self._found:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Mapping, Sequence
 from itertools import pairwise
+from types import MappingProxyType
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtGui import QAction, QActionGroup, QKeyEvent
@@ -19,6 +20,8 @@ from .. import theme
 from .bigram_grid import BigramGrid
 from .bigram_legend import BigramLegend, CoverageBar
 from .bigram_model import spoken_pair
+
+NONE: Mapping[Pair, float] = MappingProxyType({})
 
 
 def phones_in(text: str, phonemes: Sequence[str]) -> tuple[str, ...]:
@@ -123,9 +126,15 @@ class BigramPicker(QWidget):
         self.grid.pairs.statuses = statuses
         self.grid.pairs.refresh()
 
-    def set_weak(self, weak: Mapping[Pair, str]) -> None:
-        """Pair → why it is weak, in a few words."""
+    def set_weak(self, weak: Mapping[Pair, str], shares: Mapping[Pair, float] = NONE) -> None:
+        """Pair → why it is weak, in a few words, and how weak beside the weakest, 0…1; unknown: as weak as that."""
         self.grid.pairs.weak = weak
+        self.grid.pairs.weakness = shares
+        self.grid.pairs.refresh()
+
+    def set_differences(self, differences: Mapping[Pair, float] | None) -> None:
+        """Tint pairs by how much they differ from another set, 0…1, in place of status; None: no more."""
+        self.grid.pairs.differences = differences
         self.grid.pairs.refresh()
 
     def set_used(self, used: Mapping[Pair, int]) -> None:

@@ -1,6 +1,6 @@
 #version 330 core
-// Studio light on a face: warm key from the upper left, soft sky and bounce as fill, cool rim from
-// behind on the right. All in the camera's space: the face turns, the studio does not.
+// Light on a face: a key with its shadow, soft sky and bounce as fill, a rim from behind on the other
+// side. All in the camera's space: the face turns, the studio does not.
 in vec3 v_place;
 in vec3 v_normal;
 in vec4 v_colour;     // linear RGB, gloss
@@ -8,15 +8,15 @@ in vec3 v_in_light;
 
 uniform sampler2DShadow shadow;
 uniform vec3 key_from;   // unit, towards the key light
+uniform vec3 rim_from;   // unit, towards the light behind
+uniform vec3 key;        // linear RGB of each light
+uniform vec3 sky;
+uniform vec3 bounce;
+uniform vec3 rim_light;
 uniform float cut;       // not 0: the head is cut open
 
 out vec4 pixel;
 
-const vec3 KEY = vec3(1.62, 1.42, 1.24);
-const vec3 SKY = vec3(0.235, 0.275, 0.335);
-const vec3 BOUNCE = vec3(0.205, 0.14, 0.11);
-const vec3 RIM_FROM = vec3(0.7276, 0.4366, -0.5292);
-const vec3 RIM = vec3(2.3, 3.3, 4.9);
 const vec3 INSIDE = vec3(0.16, 0.10, 0.105);   // of a head cut open; sRGB
 const float PENUMBRA = 0.009;   // of the shadow map's width
 const float BIAS = 0.006;       // of its depth
@@ -48,21 +48,21 @@ void main() {
     // A shadow is cast on what faces the light; what turns away darkens by itself, and more gently.
     float free = 1.0 - (1.0 - arriving(v_in_light)) * smoothstep(0.0, 0.5, facing);
     vec3 through = mix(vec3(0.16) + flesh * vec3(0.16, 0.02, -0.02), vec3(1.0), free);
-    vec3 light = KEY * lit * lit * through + mix(BOUNCE, SKY, n.y * 0.5 + 0.5);
+    vec3 light = key * lit * lit * through + mix(bounce, sky, n.y * 0.5 + 0.5);
 
     float toward = clamp(dot(n, to_eye), 0.0, 1.0);
     float edge = 1.0 - toward;
     edge *= edge;
-    float behind = clamp(dot(n, RIM_FROM) * 1.25 + 0.25, 0.0, 1.0);
+    float behind = clamp(dot(n, rim_from) * 1.25 + 0.25, 0.0, 1.0);
     // White would turn blue; and teeth have it from behind only because no shadow map keeps the rim out.
-    vec3 rim = RIM * (edge * behind * (0.3 + 0.7 * flesh));
+    vec3 rim = rim_light * (edge * behind * (0.3 + 0.7 * flesh));
 
     // Blinn-Phong with the energy kept: a glossy spot is small and bright, a dull one wide and faint.
     float hardness = exp2(2.5 + 7.0 * gloss);
     float spot = pow(max(dot(n, normalize(key_from + to_eye)), 0.0), hardness);
     float shine = gloss * (0.04 + 0.9 * gloss * gloss) * spot * free + 0.06 * gloss * edge;
 
-    vec3 colour = base * light + rim * (base * 0.75 + 0.03 * gloss) + KEY * shine;
+    vec3 colour = base * light + rim * (base * 0.75 + 0.03 * gloss) + key * shine;
     // A soft shoulder on the brightest channel keeps the hue of bright skin; a little of it on each
     // channel lets highlights go to white.
     float peak = max(colour.r, max(colour.g, colour.b));

@@ -411,7 +411,7 @@ def test_sizes_are_checked_before_memory_is_taken(tmp_path):
         accessor["count"] = 1_900_000
     gltf.primitive()["targets"] = gltf.primitive()["targets"] * 200
     gltf.mesh()["extras"]["targetNames"] = [f"shape {n}" for n in range(200)]
-    assert "more than 1 GB" in refuse(tmp_path, gltf)
+    assert "more than 512 MB" in refuse(tmp_path, gltf)
 
 
 def test_nodes_that_go_round_in_circles(tmp_path):

@@ -5,7 +5,7 @@ import pytest
 
 from core_pipeline.errors import UserError
 from core_pipeline.faces import obj_folder
-from core_pipeline.faces.limits import MAX_FILE
+from core_pipeline.faces.limits import MAX_TEXT
 from core_pipeline.faces.obj_colours import SKIN
 from core_pipeline.faces.obj_folder import read_obj_folder
 from tests.helpers.rigs import as_objs, head
@@ -133,7 +133,7 @@ def test_damage_is_named_by_file(tmp_path, bad, why):
 def test_sizes_are_checked_before_memory_is_taken(tmp_path, monkeypatch):
     huge = folder(tmp_path, up=LIFTED) / "neutral.obj"
     with huge.open("wb") as file:
-        file.truncate(MAX_FILE + 1)
+        file.truncate(MAX_TEXT + 1)
     assert "larger than 512 MB" in refused(tmp_path)
     huge.write_text(QUAD)
     for limit, value, why in (

@@ -179,6 +179,13 @@ def test_a_mapping_for_shapes_that_are_gone(tmp_path):
     assert "head.glb.lipstitch.json uses shapes this face does not have (old): they are left out." in found.notes
 
 
+def test_a_mapping_made_for_another_pose_set_does_not_count(tmp_path):
+    path = as_glb(head(["mouth open", "bare teeth"]), tmp_path / "crab.glb")
+    save_mapping(path, "own names", {"open": {"mouth open": 1}})
+    assert opened(path).retarget.poses == {"open": {"mouth open": 1.0}}
+    assert opened(path, poses=("mouth open", "bare teeth")).retarget.missing == ()
+
+
 def test_a_damaged_mapping_is_a_sentence(tmp_path):
     path = as_glb(head(), tmp_path / "head.glb")
     mapping_path(path).write_text("{")

@@ -11,16 +11,17 @@ import pytest
 
 from core_pipeline.errors import UserError
 from core_pipeline.faces.face import Camera
+from core_pipeline.faces.looks import Background, Look
 from core_pipeline.faces.render import FaceRenderer
 from core_pipeline.faces.render_context import process_context
-from core_pipeline.faces.view import Background, View
+from core_pipeline.faces.view import View
 from tests.helpers.ball import ball
 
 BALL = ball()
 VIEW = View.of(BALL.camera)
 REST = np.zeros(2, np.float32)
 SIZE = (96, 96)
-BLACK = Background((0, 0, 0), (0, 0, 0), 0)
+BLACK = Look(Background((0, 0, 0), (0, 0, 0), 0))
 
 
 @pytest.fixture
@@ -53,10 +54,10 @@ def test_a_ball_is_a_disc_in_the_middle(renderer, full_quality):
 
 
 def test_the_first_row_is_the_top_and_the_first_column_the_left(renderer):
-    above = VIEW.panned(0, -8, 96)
+    above = VIEW.panned(0, -8, SIZE)
     rows, _ = np.nonzero(covered(draw(renderer, view=above)))
     assert rows.mean() == pytest.approx(39.5, abs=0.7)
-    _, columns = np.nonzero(covered(draw(renderer, view=VIEW.panned(-8, 0, 96))))
+    _, columns = np.nonzero(covered(draw(renderer, view=VIEW.panned(-8, 0, SIZE))))
     assert columns.mean() == pytest.approx(39.5, abs=0.7)
 
 
@@ -153,7 +154,7 @@ def test_full_quality_shows_the_same_face(renderer):
 
 def test_only_full_quality_has_pixels_between_face_and_background():
     renderer = FaceRenderer(ball(colour=(0.02, 0.02, 0.02, 0.0)))
-    white = Background((1, 1, 1), (1, 1, 1), 0)
+    white = Look(Background((1, 1, 1), (1, 1, 1), 0))
     between = []
     for full_quality in (False, True):
         grey = renderer.frame(REST, VIEW, SIZE, full_quality, white)[..., 1]
@@ -178,15 +179,15 @@ def test_the_array_is_used_again_until_the_size_changes(renderer):
 
 def test_the_background_falls_from_top_to_bottom(renderer):
     away = View(distance=6.0, target=(50.0, 0.0, 0.0))
-    pixels = renderer.frame(REST, away, SIZE, False, Background((1, 0.5, 0), (0, 0.5, 1), 0)).astype(int)
+    pixels = renderer.frame(REST, away, SIZE, False, Look(Background((1, 0.5, 0), (0, 0.5, 1), 0))).astype(int)
     assert abs(pixels[0, 48, :3] - (0, 128, 255)).max() <= 3
     assert abs(pixels[-1, 48, :3] - (255, 128, 0)).max() <= 3
     assert (np.diff(pixels[:, 48, 0]) >= -1).all()
 
 
-def test_another_face_is_drawn_after_set_face(renderer):
+def test_another_face_is_drawn_when_it_is_put_in(renderer):
     draw(renderer)
-    renderer.set_face(ball(12, colour=(0.0, 0.0, 0.9, 0.0)))
+    renderer.face = ball(12, colour=(0.0, 0.0, 0.9, 0.0))
     blue, _, red, _ = draw(renderer)[48, 48].astype(int)
     assert blue > red
 
@@ -290,7 +291,8 @@ import sys
 from core_pipeline.errors import UserError
 from core_pipeline.faces.render import FaceRenderer
 from core_pipeline.faces.render_context import process_context
-from core_pipeline.faces.view import Background, View
+from core_pipeline.faces.looks import Background, Look
+from core_pipeline.faces.view import View
 from tests.helpers.ball import ball
 try:
     print(FaceRenderer(ball(6)).frame([0, 0], View(), (32, 32)).shape)

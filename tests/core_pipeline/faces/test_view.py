@@ -8,8 +8,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from app import resources
+from core_pipeline.faces import face_folder
 from core_pipeline.faces.face import Camera
-from core_pipeline.faces.view import View
+from core_pipeline.faces.looks import ANGLES
+from core_pipeline.faces.view import View, places
+from tests.helpers.ball import ball
 
 HOME = Camera(target=(0.0, 0.2, 0.1), distance=7.0, yaw=10.0, pitch=-5.0, fov=22.0)
 VIEW = View.of(HOME)
@@ -18,7 +22,7 @@ MOVES = st.lists(
     st.one_of(
         st.tuples(st.just("orbited"), st.tuples(PIXELS, PIXELS)),
         st.tuples(st.just("zoomed"), st.tuples(st.floats(-500, 500))),
-        st.tuples(st.just("panned"), st.tuples(PIXELS, PIXELS, st.floats(0, 2000))),
+        st.tuples(st.just("panned"), st.tuples(PIXELS, PIXELS, st.tuples(st.integers(0, 2000), st.integers(0, 2000)))),
     ),
     max_size=8,
 )
@@ -96,7 +100,7 @@ def test_from_above_the_crown_is_near():
 
 @given(st.floats(-60, 60), st.floats(-60, 60))
 def test_the_face_follows_a_shift_pixel_by_pixel(dx, dy):
-    moved = on_screen(VIEW.panned(dx, dy, 400), HOME.target) - on_screen(VIEW, HOME.target)
+    moved = on_screen(VIEW.panned(dx, dy, (400, 400)), HOME.target) - on_screen(VIEW, HOME.target)
     np.testing.assert_allclose(moved, (dx, dy), atol=1e-6)
 
 
@@ -121,3 +125,93 @@ def test_what_is_in_front_of_the_camera_is_between_near_and_far(moves):
         _, _, z, w = view.projection((400, 400), 1.0) @ view.matrix() @ (*point, 1.0)
         if w > 0.02 * view.distance:
             assert -w <= z <= w
+
+
+def bust(wide=1.0):
+    """A ball of a head over a much wider shirt, as our characters name their parts."""
+    head, shirt = ball(12), ball(12)
+    n, m = len(head.positions), len(head.triangles)
+    return replace(
+        head,
+        positions=np.vstack([head.positions * (wide, 1, 1), shirt.positions * (3, 0.5, 1) - (0, 2, 0)]).astype("f"),
+        normals=np.vstack([head.normals, shirt.normals]),
+        colours=np.vstack([head.colours, shirt.colours]),
+        triangles=np.vstack([head.triangles, shirt.triangles + n]),
+        deltas=np.concatenate([head.deltas, shirt.deltas], axis=1),
+        normal_deltas=np.concatenate([head.normal_deltas, shirt.normal_deltas], axis=1),
+        parts={"skin": (0, m), "shirt": (m, m)},
+    )
+
+
+BUSTS = {wide: bust(wide) for wide in (0.6, 1.0, 1.8)}
+
+
+def reach(view, points, size):
+    """How far the points go to each side, in half pictures: (left, right, up, down), all below 1 when seen."""
+    corners = np.c_[points, np.ones(len(points))] @ (view.projection(size, 3.5) @ view.matrix()).T
+    x, y = corners[:, 0] / corners[:, 3], corners[:, 1] / corners[:, 3]
+    return -x.min(), x.max(), y.max(), -y.min()
+
+
+SIZES = st.tuples(st.integers(80, 1200), st.integers(80, 1200))
+
+
+@given(SIZES, st.floats(-180, 180), st.sampled_from(sorted(BUSTS)))
+def test_the_whole_head_is_seen_with_a_little_air_in_a_picture_of_any_shape(size, yaw, wide):
+    face = BUSTS[wide]
+    head = face.positions[face.positions[:, 1] > -1]
+    view = View.on(face).turned(yaw).fitted(size)
+    assert max(reach(view, head, size)) < 0.98
+
+
+@given(SIZES)
+def test_and_it_is_as_large_as_it_can_be(size):
+    face = BUSTS[1.0]
+    view = View.on(face).fitted(size)
+    assert max(reach(view, face.positions[face.positions[:, 1] > -1.5], size)) > 0.8
+
+
+@given(SIZES, st.floats(-5, 5))
+def test_zoom_counts_from_where_the_head_fits(size, steps):
+    view = View.on(BUSTS[1.0])
+    assert view.zoomed(steps).fitted(size).distance == pytest.approx(
+        view.fitted(size).distance * view.zoomed(steps).distance / view.distance
+    )
+
+
+def test_a_near_view_has_the_mouth_in_the_middle_and_is_nearer():
+    face = face_folder.load(resources.face_folder("woman"))
+    first, count = face.parts["lips"]
+    lips = face.positions[face.triangles[first : first + count].ravel()]
+    near = View.on(face, ANGLES["mouth"]).fitted((300, 300))
+    left, right, up, down = reach(near, lips, (300, 300))
+    assert 0.4 < left < 0.9
+    assert left == pytest.approx(right, abs=0.02)
+    assert up == pytest.approx(down, abs=0.2)
+    assert near.distance < 0.6 * View.on(face).fitted((300, 300)).distance
+
+
+@pytest.mark.parametrize(("name", "side"), [("left", -1), ("right", 1), ("profile", -1), ("front", 0)])
+def test_an_angle_is_named_for_the_side_of_the_picture_the_face_looks_to(name, side):
+    view = View.on(BUSTS[1.0], ANGLES[name])
+    nose = on_screen(view, (0, 0, 1))[0] - on_screen(view, (0, 0, 0))[0]
+    assert np.sign(round(float(nose))) == side
+
+
+def test_another_face_is_seen_as_the_first_one_is_each_from_its_own_home():
+    moved = VIEW.orbited(50, 10).zoomed(2)
+    other = View.of(Camera(distance=3.0, pitch=4.0)).like(moved)
+    assert other.yaw == pytest.approx(moved.yaw - HOME.yaw)
+    assert other.pitch == pytest.approx(4.0 + moved.pitch - HOME.pitch)
+    assert other.distance / 3.0 == pytest.approx(moved.distance / HOME.distance)
+
+
+@given(SIZES, st.integers(1, 3))
+def test_places_cover_the_picture_once_and_are_never_needlessly_narrow(size, count):
+    found = places(size, count)
+    covered = np.zeros(size, int)
+    for x, y, w, h in found:
+        covered[x : x + w, y : y + h] += 1
+    assert (covered == 1).all()
+    shorter = min(min(w, h) for *_, w, h in found)
+    assert shorter >= max(min(size[0] // count, size[1]), min(size[0], size[1] // count))

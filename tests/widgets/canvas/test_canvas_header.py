@@ -25,7 +25,7 @@ def header(qtbot):
 @pytest.fixture
 def joined(header, hand, canvas):
     """A header over a canvas, as the window joins them."""
-    header.action_wanted.connect(canvas.do)
+    header.action_wanted.connect(canvas.act)
     header.snap_toggled.connect(canvas.set_snap)
     header.polygon_toggled.connect(canvas.set_polygon)
     canvas.keys_changed.connect(header.set_keys)

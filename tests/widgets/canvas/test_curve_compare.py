@@ -228,7 +228,7 @@ def test_a_click_on_the_canvas_keeps_what_the_slider_shows(hand, ghosted, qtbot)
     assert len(hand.edits) == 1
     assert not ghosted.blend_bar.isVisible()
     assert not ghosted.busy
-    qtbot.keyClick(ghosted, Key.Key_Period)
+    qtbot.keyClick(ghosted, Key.Key_BracketRight)
     assert ghosted.selection == {("FV", 0)}
 
 

@@ -1,6 +1,5 @@
-"""Unsaved work has a copy within two seconds, and a killed session's copy is offered to the next."""
+"""Unsaved work is in the journal within a second, and a killed session's work is offered to the next."""
 
-import json
 import os
 import signal
 import subprocess
@@ -12,9 +11,11 @@ import pytest
 from PySide6.QtCore import QCoreApplication, QTimer
 from pytestqt.qtbot import QtBot
 
-from app import autosave as module
-from app.autosave import Autosave, left_behind
+from app import document as module
 from app.document import Document
+from app.keeping import journal
+from app.keeping.autosave import Autosave, left_behind
+from app.keeping.journal import Kept
 from core_pipeline.curve_set import Bigram, CurveSet
 from core_pipeline.curves import Curve
 from core_pipeline.files import curve_set_json
@@ -23,14 +24,14 @@ from core_pipeline.settings import Settings
 ROOT = Path(module.__file__).parents[1]
 F_AH = ("f", "ah")
 HILL = Curve.of([(0, 0), (0.5, 0.9), (1, 0.25)])
-WITHIN = 2000  # milliseconds
+WITHIN = 1000  # milliseconds
 
 #: A session that edits and waits to be killed; argv: recovery folder, path of its file.
 SESSION = """
 import sys
 from pathlib import Path
 from PySide6.QtCore import QCoreApplication
-from app.autosave import Autosave
+from app.keeping.autosave import Autosave
 from app.document import Document
 from core_pipeline.curve_set import CurveSet
 from core_pipeline.curves import Curve
@@ -67,17 +68,16 @@ def edit(document: Document) -> None:
     document.edit_curves(F_AH, {"open": HILL}, "Move key")
 
 
-def test_a_copy_is_there_two_seconds_after_the_first_edit(
+def test_the_first_edit_is_there_within_a_second(
     document: Document, autosave: Autosave, folder: Path, qtbot: QtBot
 ) -> None:
     assert not folder.exists()
     with qtbot.waitSignal(autosave.saved, timeout=WITHIN):
         edit(document)
-    copy = curve_set_json.load(autosave.copy)
-    assert copy.bigrams[F_AH].curves["open"].same_as(HILL)
+    assert journal.read(autosave.journal).curve_set.bigrams[F_AH].curves["open"].same_as(HILL)
 
 
-def test_a_copy_comes_even_while_edits_go_on(document: Document, autosave: Autosave, qtbot: QtBot) -> None:
+def test_lines_come_even_while_edits_go_on(document: Document, autosave: Autosave, qtbot: QtBot) -> None:
     heights = iter(range(1, 1000))
 
     def go_on() -> None:
@@ -95,16 +95,16 @@ def test_a_copy_comes_even_while_edits_go_on(document: Document, autosave: Autos
 def test_settings_are_work_too(document: Document, autosave: Autosave, qtbot: QtBot) -> None:
     with qtbot.waitSignal(autosave.saved, timeout=WITHIN):
         document.change_settings(Settings.smartbody(), "Preset SmartBody")
-    assert curve_set_json.load(autosave.copy).effective_settings == Settings.smartbody()
+    assert journal.read(autosave.journal).curve_set.effective_settings == Settings.smartbody()
 
 
 @pytest.mark.parametrize("way", ["save", "undo", "new"])
-def test_no_copy_is_left_when_nothing_is_unsaved(
+def test_no_journal_is_left_when_nothing_is_unsaved(
     document: Document, autosave: Autosave, folder: Path, tmp_path: Path, qtbot: QtBot, way: str
 ) -> None:
     with qtbot.waitSignal(autosave.saved, timeout=WITHIN):
         edit(document)
-    assert len(list(folder.iterdir())) == 2
+    assert len(list(folder.iterdir())) == 1
     {
         "save": lambda: document.save(tmp_path / "mine.json"),
         "undo": document.undo_stack.undo,
@@ -113,7 +113,7 @@ def test_no_copy_is_left_when_nothing_is_unsaved(
     assert list(folder.iterdir()) == []
 
 
-def test_a_copy_that_is_being_written_is_cleared_too(
+def test_a_line_that_is_being_written_is_cleared_too(
     document: Document, autosave: Autosave, folder: Path, tmp_path: Path
 ) -> None:
     edit(document)
@@ -122,17 +122,17 @@ def test_a_copy_that_is_being_written_is_cleared_too(
     assert list(folder.iterdir()) == []
 
 
-def test_work_after_a_save_gets_a_new_copy(
+def test_work_after_a_save_gets_a_new_journal(
     document: Document, autosave: Autosave, tmp_path: Path, qtbot: QtBot
 ) -> None:
     edit(document)
     document.save(tmp_path / "mine.json")
     with qtbot.waitSignal(autosave.saved, timeout=WITHIN):
         document.undo_stack.undo()
-    assert F_AH not in curve_set_json.load(autosave.copy).bigrams
+    assert F_AH not in journal.read(autosave.journal).curve_set.bigrams
 
 
-def test_where_no_copy_can_be_kept_it_is_said_once(tmp_path: Path, document: Document, qtbot: QtBot) -> None:
+def test_where_no_journal_can_be_kept_it_is_said_once(tmp_path: Path, document: Document, qtbot: QtBot) -> None:
     (tmp_path / "file").write_text("")
     autosave = Autosave(document, tmp_path / "file" / "recovery")
     said: list[str] = []
@@ -159,28 +159,28 @@ def test_a_killed_session_leaves_its_work_to_the_next(folder: Path, tmp_path: Pa
         assert left_behind(folder) == []  # it is still at work
         session.send_signal(signal.SIGKILL)
     (recovery,) = left_behind(folder)
-    assert recovery.path == path
+    assert recovery.kept.path == path
     expected = CurveSet(name="Mine").with_bigram(F_AH, Bigram({"open": HILL}))
-    assert curve_set_json.dumps(recovery.curve_set) == curve_set_json.dumps(expected)
+    assert curve_set_json.dumps(recovery.kept.curve_set) == curve_set_json.dumps(expected)
     assert F_AH not in curve_set_json.load(path).bigrams
     recovery.discard()
     assert left_behind(folder) == []
     assert list(folder.iterdir()) == []
 
 
-def test_damaged_copies_are_passed_over_and_the_newest_comes_first(folder: Path) -> None:
+def test_damaged_journals_are_passed_over_and_the_newest_comes_first(folder: Path) -> None:
     folder.mkdir(parents=True)
     for i, name in enumerate(["first", "second"]):
-        copy = folder / f"{name}.json"
-        curve_set_json.save(CurveSet(name=name), copy)
-        os.utime(copy, (1e9 + i, 1e9 + i))
-    (folder / "first.origin").write_text(json.dumps({"path": "somewhere.json"}))
-    (folder / "second.origin").write_bytes(b"\xff{")
-    (folder / "broken.json").write_text("{")
-    (folder / "broken.origin").write_text("[]")
+        file = folder / f"{name}.journal"
+        journal.begin(file, Kept(CurveSet(name=name), Path("somewhere.json") if i else None, ""))
+        os.utime(file, (1e9 + i, 1e9 + i))
+    (folder / "empty.journal").write_text("")
+    (folder / "broken.journal").write_text("{\n")
+    (folder / "other.journal").write_text("[]\n")
+    (folder / "half.journal").write_bytes((folder / "first.journal").read_bytes()[:-20])
     found = left_behind(folder)
-    assert [recovery.curve_set.name for recovery in found] == ["second", "first"]
-    assert [recovery.path for recovery in found] == [None, Path("somewhere.json")]
+    assert [recovery.kept.curve_set.name for recovery in found] == ["second", "first"]
+    assert [recovery.kept.path for recovery in found] == [Path("somewhere.json"), None]
 
 
 def test_without_a_folder_nothing_was_left(folder: Path) -> None:

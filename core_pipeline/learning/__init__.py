@@ -1,0 +1,1 @@
+"""Animation that is already there → curves and models: corpora, fits, bigrams (section 5.1)."""
