@@ -116,8 +116,9 @@ class CanvasHeader(QWidget):
 
     def set_time_spent(self, text: str) -> None:
         """How long the user has worked on the bigram, shown where there is room for it."""
-        self._spent = text
-        self._show()
+        if text != self._spent:
+            self._spent = text
+            self._show()
 
     def set_snap(self, on: bool) -> None:
         """Whether keys keep to the grid."""
