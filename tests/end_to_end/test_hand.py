@@ -9,7 +9,6 @@ from app.editor import Editor
 from core_pipeline.curves import Curve
 from core_pipeline.phone_classes import by_class
 from tests.end_to_end.test_first_story import drag_key, speak
-from widgets.overlay.stage_lines import Line
 
 Key = Qt.Key
 
