@@ -86,6 +86,7 @@ class Wiring(QObject):
         self.layouts = Layouts(parts, self.keys.shortcuts, self)
         self.before_after = BeforeAfter(parts, self)
         self.bigram.opened.connect(self.before_after.forget)
+        self.queue.frequencies_changed.connect(self._show_orders)
         self._connect_document()
         self.beside = Beside(parts, self.bigram, self)  # after: it follows what the document has told the canvas
         self._connect_views()
@@ -122,6 +123,7 @@ class Wiring(QObject):
         w.bigram_transport.play_toggled.connect(preview.toggle_bigram)
         w.bigram_transport.length_changed.connect(preview.set_bigram_length)
         w.settings_panel.settings_changed.connect(self._settings_wanted)
+        w.picker.entered.connect(w.canvas.setFocus)
         w.picker.search_wanted.connect(lambda text: self._search.request(text, self.sentence.voice, RATE))
         self._search.spoken.connect(self._word_found)
         self._search.failed.connect(self._word_not_found)
@@ -168,13 +170,7 @@ class Wiring(QObject):
 
     def _set_replaced(self) -> None:
         curve_set, w = self._document.curve_set, self._window
-        w.picker.set_orders(
-            {
-                self.tr("As in the set"): curve_set.phonemes,
-                self.tr("By class"): by_class(curve_set.phonemes),
-                self.tr("By frequency"): by_frequency(curve_set.phonemes),
-            }
-        )
+        self._show_orders()
         w.pose_list.set_poses(curve_set.poses, {p: MEANING[p] for p in curve_set.poses if p in MEANING})
         w.canvas.set_poses(curve_set.poses)
         w.weights.set_poses(curve_set.poses)
@@ -184,6 +180,17 @@ class Wiring(QObject):
         self._show_statuses()
         self.bigram.set_replaced()
         self.character.set_poses(curve_set.poses)
+
+    def _show_orders(self) -> None:
+        """In which orders the picker can show the phones."""
+        phones = self._document.curve_set.phonemes
+        self._window.picker.set_orders(
+            {
+                self.tr("As in the set"): phones,
+                self.tr("By class"): by_class(phones),
+                self.tr("By frequency"): by_frequency(phones, self.queue.shares),
+            }
+        )
 
     def _bigram_changed(self, pair: Pair) -> None:
         curve_set = self._document.curve_set

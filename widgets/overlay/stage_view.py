@@ -22,7 +22,7 @@ from . import stage_backdrop as backdrop
 from .stage_footer import ROW, Footer
 from .stage_layers import LAYERS, RowPlace, draw_ghost, draw_method, draw_origin, draw_other
 from .stage_lines import Line, PoseLines, pose_lines, weights_lines
-from .stage_marks import Mark, draw_marks
+from .stage_marks import HALF, Mark, draw_marks
 from .stage_picking import Reading, curve_of
 from .stage_rows import MODES, Row, lay_out
 from .time_axis import TimeAxis
@@ -273,7 +273,9 @@ class StageView(QWidget):
             for row in self._rows:
                 if event.rect().intersects(QRect(0, row.top, self.width(), row.height)):
                     painter.drawPixmap(0, row.top, self.row_pixmap(row))
-            draw_marks(painter, self._marks, self._axis, self.row_of)
+            first, last = (self._axis.left + (x - self._axis.x0) / self._axis.scale for x in _around(event.rect()))
+            marks = [mark for mark in self._marks if first <= mark.time <= last]
+            draw_marks(painter, marks, self._axis, self.row_of)
             self._paint_reading(painter, self._stages)
             backdrop.draw_playhead(painter, self._axis, self._playhead, self.height())
         if self.hasFocus():
@@ -365,6 +367,11 @@ class StageView(QWidget):
             draw_method(painter, place, method)
         painter.end()
         return pixmap
+
+
+def _around(rect: QRect) -> tuple[int, int]:
+    """The columns from which a mark reaches into `rect`."""
+    return rect.left() - HALF - 1, rect.right() + HALF + 1
 
 
 def _same_ground(one: Stages | None, other: Stages | None) -> bool:
