@@ -46,6 +46,7 @@ from .statistics import Statistics
 from .suggesting import Suggesting
 from .tabs import Tabs
 from .time_spent import TimeSpent
+from .tongue import Tongue
 from .weak import Weak
 
 
@@ -70,6 +71,7 @@ class Wiring(QObject):
         self.character = Character(parts, self)
         self.picking = FacePicking(parts, self.character, self)
         self.looks = Looks(parts, self)
+        self.tongue = Tongue(parts, self)
         self.mapping = Mapping(parts, self)
         self.weak = Weak(parts, self.bigram, self.sentence, self)
         self.suggesting = Suggesting(parts, self.bigram, self.weak, self)
