@@ -28,8 +28,10 @@ from widgets.canvas.pose_list import PoseList
 from widgets.overlay.stage_panel import StagePanel
 from widgets.picker.bigram_picker import BigramPicker
 from widgets.picker.weak_panel import WeakPanel
+from widgets.preview.face_picker import FacePicker
 from widgets.preview.face_view import FaceView
 from widgets.preview.mapping_panel import MappingPanel
+from widgets.preview.preview_panel import PreviewPanel
 from widgets.preview.weights_bars import WeightsBars
 from widgets.sentence_bar import SentenceBar
 from widgets.settings.settings_panel import SettingsPanel
@@ -86,6 +88,8 @@ class MainWindow(QMainWindow):
         self.beside = BesidePanel()
         self.bigram_tabs = BigramTabs()
         self.face_view = FaceView()
+        self.preview_panel = PreviewPanel(self.face_view)
+        self.face_picker = FacePicker(self)
         self.weights = WeightsBars()
         self.settings_panel = SettingsPanel()
         self.mapping_panel = MappingPanel()
@@ -233,7 +237,7 @@ class MainWindow(QMainWindow):
         self.bigrams_dock = self.add_dock("bigrams", self.tr("Bigrams"), self.picker, left)
         self.weak_dock = self.add_dock("weak", self.tr("Weak bigrams"), self.weak_panel, left)
         self.sentences_dock = self.add_dock("sentences", self.tr("Sentences"), self.sentence_list, left)
-        self.preview_dock = self.add_dock("preview", self.tr("Preview"), self.face_view, right)
+        self.preview_dock = self.add_dock("preview", self.tr("Preview"), self.preview_panel, right)
         self.weights_dock = self.add_dock("weights", self.tr("Pose weights"), self.weights, right)
         self.settings_dock = self.add_dock("settings", self.tr("Pipeline settings"), self.settings_panel, right)
         self.stages_dock = self.add_dock("stages", self.tr("Pipeline stages"), self.stage_panel, below)

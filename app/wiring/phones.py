@@ -12,11 +12,9 @@ from core_pipeline.pipeline import Stages
 from core_pipeline.speech import edit
 from core_pipeline.speech.utterance import Utterance
 
-from ..commands import SPOKEN_STEPS
+from ..commands import EditUtterance
 from .parts import Parts
 from .sentence import Sentence
-
-_MOVE, _RENAME, _INSERT, _REMOVE = SPOKEN_STEPS
 
 
 class Phones(QObject):
@@ -38,11 +36,15 @@ class Phones(QObject):
         overlay.edge_dragged.connect(self._drag)
         overlay.edge_dropped.connect(self._drop)
         overlay.edge_let_be.connect(self._let_be)
-        overlay.phone_renamed.connect(lambda i, name: self._edit(lambda u: edit.renamed(u, i, name), _RENAME))
-        overlay.phone_inserted.connect(
-            lambda i, name, after: self._edit(lambda u: edit.inserted(u, i, name, after=after), _INSERT)
+        overlay.phone_renamed.connect(
+            lambda i, name: self._edit(lambda u: edit.renamed(u, i, name), self.tr("Rename a phone"))
         )
-        overlay.phone_removed.connect(lambda i: self._edit(lambda u: edit.removed(u, i), _REMOVE))
+        overlay.phone_inserted.connect(
+            lambda i, name, after: self._edit(
+                lambda u: edit.inserted(u, i, name, after=after), self.tr("Insert a phone")
+            )
+        )
+        overlay.phone_removed.connect(lambda i: self._edit(lambda u: edit.removed(u, i), self.tr("Remove a phone")))
         self._document.replaced.connect(self._show_choices)
         self._session.stages_changed.connect(self._show_words)
         self._show_choices()
@@ -74,7 +76,7 @@ class Phones(QObject):
         if after is before:
             self._put(before)
         else:
-            self._push(before, after, _MOVE)
+            self._push(before, after, self.tr("Move a boundary"))
 
     def _let_be(self) -> None:
         before, self._before = self._before, None
@@ -95,7 +97,7 @@ class Phones(QObject):
         self._push(before, after, label)
 
     def _push(self, before: Utterance, after: Utterance, label: str) -> None:
-        self._document.edit_utterance(self._put, before, after, label)
+        self._document.push_aside(EditUtterance(self._put, before, after, label))
 
     def _put(self, utterance: Utterance) -> None:
         """Say this; playing goes on when it is the same sound."""

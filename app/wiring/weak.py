@@ -103,12 +103,16 @@ class Weak(QObject):
 
     def _ask(self) -> None:
         session, w = self._session, self._window
+        if session.in_gesture:  # the hand comes first, and when it ends there is a new result
+            return
         stages = session.stages
         w.picker.set_used(session.used())
         pairs = stages.schedule.pairs() if stages is not None else []
         words = zip(reversed(pairs), reversed(self._bigram.examples), strict=False)  # of several, the first
         w.picker.set_words({pair: text for pair, (text, _) in words if text})
-        if not session.in_gesture and not session.shows_other:  # when it ends there is a new result
+        if stages is not None and stages.poses != session.curve_set.poses:
+            return  # another set has just been opened: its stages are on their way
+        if not session.shows_other:  # when it ends there is a new result
             self._diagnoser.request((session.curve_set, stages))
 
     def _diagnosed(self, diagnosis: Diagnosis) -> None:
