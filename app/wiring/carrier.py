@@ -65,7 +65,7 @@ class Carrier(QObject):
         self._worker.answered.connect(self._found)
         self.action = self._window.actions_.bigram_menu.add(
             "bigram.carrier",
-            self.tr("&Loop a Word That Has It"),
+            self.tr("L&oop a Word That Has It"),
             (),
             self.tr("When a bigram is opened that the sentence does not have, say a short word and pinned sentences"),
             checked=self._state.flag("carrier words", True),

@@ -44,7 +44,7 @@ class Queue(QObject):
         menu.line()
         self.approve_action = menu.add(
             "bigram.approve",
-            self.tr("A&pprove and Open the Next"),
+            self.tr("Approv&e and Open the Next"),
             ("Ctrl+Return", "Ctrl+Enter"),
             self.tr("Mark the open bigram as approved and go on with the next in the queue"),
         )

@@ -65,7 +65,7 @@ class Weak(QObject):
             action = menu.add(name, text, key, self.tr("Step through the list of weak bigrams"))
             action.triggered.connect(lambda _=False, way=way: panel.list.step(way))
         look = menu.add(
-            "weak.text", self.tr("Look for Weak Ones in a &Text…"), (), self.tr("Find what is weak in a whole script")
+            "weak.text", self.tr("Look for Weak Ones &in a Text…"), (), self.tr("Find what is weak in a whole script")
         )
         look.triggered.connect(lambda _=False: self._ask_file())
         self._session.stages_changed.connect(self._stages_changed)
