@@ -96,6 +96,11 @@ class Actions:
         self.redo.setIcon(theme.icon("redo"))
         self.redo.setStatusTip(tr("Make the change again that was taken back"))
         menu.line()
+        self.phone_set = menu.add(
+            "edit.phones", tr("&Phone Set…"), (), tr("Add, split, rename and remove phonemes; see first what changes")
+        )
+        self.author = menu.add("edit.author", tr("&Author…"), (), tr("The name that your bigrams bear in the file"))
+        menu.line()
         keys = menu.submenu(tr("&Keys of the Canvas"))
         self.keymaps: QActionGroup = keys.choice()
         titles = {NEUTRAL: tr("&Neutral"), "Maya": tr("Like &Maya"), "Blender": tr("Like &Blender")}
@@ -196,6 +201,15 @@ class Actions:
             "bigram.play", tr("&Play the Bigram Alone"), "Shift+F5", tr("Play or stop the open bigram")
         )
         menu.line()
+        self.revert = menu.add(
+            "bigram.revert", tr("Re&vert to Base"), (), tr("The open bigram as the set below has it")
+        )
+        self.theirs = menu.add(
+            "bigram.theirs",
+            tr("S&wap with the Other Side's Curves"),
+            (),
+            tr("Where a merge left this bigram undecided; editing or approving decides"),
+        )
         self.swapped = menu.add(
             "bigram.swapped", tr("Open the &Swapped Pair"), "Ctrl+Shift+B", tr("From f-ah to ah-f and back")
         )

@@ -143,6 +143,7 @@ COMMANDS: Mapping[str, Command] = {
     "render": _in("command_line.clips", "render"),
     "face": _in("rigs", "tell_face"),
     "contact-sheet": _in("command_line.contact_sheet", "contact_sheet"),
+    "film-strip": _in("command_line.film_strip", "film_strip"),
     "screenshot": _screenshot,
     "fit": _in("command_line.fit", "fit"),
     "study": _in("command_line.study", "study"),

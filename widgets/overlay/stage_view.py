@@ -15,13 +15,14 @@ from PySide6.QtWidgets import QWidget
 
 from core_pipeline.phonemes import Pair
 from core_pipeline.pipeline import Stages
+from core_pipeline.weights import Weights
 
 from .. import theme
 from . import stage_backdrop as backdrop
 from .stage_footer import ROW, Footer
-from .stage_layers import LAYERS, RowPlace, draw_ghost, draw_origin, draw_other
-from .stage_lines import Line, PoseLines, pose_lines
-from .stage_marks import Mark, draw_marks
+from .stage_layers import LAYERS, RowPlace, draw_ghost, draw_method, draw_origin, draw_other
+from .stage_lines import Line, PoseLines, pose_lines, weights_lines
+from .stage_marks import HALF, Mark, draw_marks
 from .stage_picking import Reading, curve_of
 from .stage_rows import MODES, Row, lay_out
 from .time_axis import TimeAxis
@@ -41,6 +42,7 @@ class StageView(QWidget):
         self._lines: dict[str, PoseLines] = {}
         self._ghost: dict[str, PoseLines] = {}
         self._other: dict[str, PoseLines] = {}
+        self._method: dict[str, Line] = {}
         self._marks: tuple[Mark, ...] = ()
         self._sources: tuple[str, ...] = ()
         self._active = ""
@@ -129,6 +131,13 @@ class StageView(QWidget):
         """What another curve set makes of the sentence, its final curves dashed; None for none."""
         if stages is not None or self._other:
             self._other = {} if stages is None else pose_lines(stages)
+            self._row_pixmaps.clear()
+            self._redraw()
+
+    def set_method(self, weights: Weights | None) -> None:
+        """What another method makes of the sentence, grey and dashed; None for none."""
+        if weights is not None or self._method:
+            self._method = {} if weights is None else weights_lines(weights)
             self._row_pixmaps.clear()
             self._redraw()
 
@@ -264,7 +273,9 @@ class StageView(QWidget):
             for row in self._rows:
                 if event.rect().intersects(QRect(0, row.top, self.width(), row.height)):
                     painter.drawPixmap(0, row.top, self.row_pixmap(row))
-            draw_marks(painter, self._marks, self._axis, self.row_of)
+            first, last = (self._axis.left + (x - self._axis.x0) / self._axis.scale for x in _around(event.rect()))
+            marks = [mark for mark in self._marks if first <= mark.time <= last]
+            draw_marks(painter, marks, self._axis, self.row_of)
             self._paint_reading(painter, self._stages)
             backdrop.draw_playhead(painter, self._axis, self._playhead, self.height())
         if self.hasFocus():
@@ -352,8 +363,15 @@ class StageView(QWidget):
                 layer.draw(painter, place, lines, self._styles[layer.name])
         if (other := self._other.get(row.pose)) is not None:
             draw_other(painter, place, other, self._styles["magenta"])
+        if (method := self._method.get(row.pose)) is not None:
+            draw_method(painter, place, method)
         painter.end()
         return pixmap
+
+
+def _around(rect: QRect) -> tuple[int, int]:
+    """The columns from which a mark reaches into `rect`."""
+    return rect.left() - HALF - 1, rect.right() + HALF + 1
 
 
 def _same_ground(one: Stages | None, other: Stages | None) -> bool:
