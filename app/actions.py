@@ -181,7 +181,7 @@ class Actions:
         self.angles = self._one_of(menu.submenu(tr("Ca&mera")), "camera", angles, numbered=True)
         self.angles.setExclusionPolicy(QActionGroup.ExclusionPolicy.ExclusiveOptional)  # none, once turned by hand
         self.turntable = menu.add(
-            "view.turntable", tr("&Turntable"), "Ctrl+T", tr("Let the faces turn by themselves"), checked=False
+            "view.turntable", tr("&Turntable"), "Ctrl+Alt+T", tr("Let the faces turn by themselves"), checked=False
         )
 
     def _one_of(self, menu: Menu, kind: str, titles: Mapping[str, str], *, numbered: bool = False) -> QActionGroup:
