@@ -9,7 +9,7 @@ from typing import NoReturn
 from core_pipeline.errors import UserError
 from core_pipeline.settings import PRESETS, SPLINES
 
-from . import curve_sets_parser, curve_work_parser, look_options, methods_parser
+from . import curve_sets_parser, curve_work_parser, look_options, methods_parser, speech_options
 
 _FACE = "toon, ada, man, woman, crab; or a .glb, .gltf or .vrm; or a folder of .obj poses"
 
@@ -47,7 +47,7 @@ def make_parser() -> Parser:
 
     bake = command(
         "bake",
-        "turn a sentence or a schedule into weights per frame",
+        "turn a sentence, a recording, a label file or a schedule into weights per frame",
         'lipstitch bake "Fat cats often find fish" --out weights.json',
     )
     _speech_options(bake, text_optional=True)
@@ -60,6 +60,8 @@ def make_parser() -> Parser:
     bake.add_argument("--fps", type=float, default=60, metavar="N", help="frames per second, 1 to 1000 (default 60)")
     bake.add_argument("--method", type=Path, metavar="FILE", help="a learned model, .npz, in place of the curves")
     bake.add_argument("--no-snap", action="store_true", help="do not put each peak on its nearest frame")
+    speech_options.add_to_bake(bake)
+    speech_options.add(command)
 
     curve_work_parser.add(command)
 

@@ -42,6 +42,7 @@ from .phone_sets import PhoneSets
 from .queue import Queue
 from .sentence import RATE, Sentence
 from .sentences import Sentences
+from .speech_in import SpeechIn
 from .statistics import Statistics
 from .suggesting import Suggesting
 from .tabs import Tabs
@@ -67,6 +68,7 @@ class Wiring(QObject):
         self.bigram = OpenBigram(parts, self)
         self.tabs = Tabs(parts, self.bigram, self)
         self.sentence = Sentence(parts, self)
+        self.speech_in = SpeechIn(parts, self.sentence, self)
         self.sentences = Sentences(parts, self.sentence, self)
         self.character = Character(parts, self)
         self.picking = FacePicking(parts, self.character, self)
@@ -286,7 +288,9 @@ class Wiring(QObject):
     # ── the window ───────────────────────────────────────────────────────────────────────────────
 
     def _open_dropped(self, path: Path) -> None:
-        """A curve set, a diphone script, or else a face."""
+        """Something spoken, a curve set, a diphone script, or else a face."""
+        if self.speech_in.take(path):
+            return
         if path.suffix.lower() == ".py":
             self.exchange.import_script(path)
         elif path.suffix.lower() != ".json":
@@ -306,7 +310,7 @@ class Wiring(QObject):
         )
 
     def _may_close(self) -> bool:
-        if not self._files.may_discard() or not self.mapping.may_close():
+        if not self._files.may_discard() or not self.mapping.may_close() or not self.speech_in.may_close():
             return False
         self._files.autosave.clear()
         return True
@@ -324,6 +328,7 @@ class Wiring(QObject):
         w.voice_bar.set_speed(state.number("speed", 1.0))
         self._preview.player.set_speed(state.number("speed", 1.0))
         self.sentence.set_voice(state.text("voice"))
+        self.speech_in.restore()
 
     def remember(self) -> None:
         """Keep this time's layout."""
@@ -341,6 +346,7 @@ class Wiring(QObject):
         state.put("loop", player.looping)
         state.put("speed", player.speed)
         state.put("voice", self.sentence.voice)
+        self.speech_in.close()
         self.weak.close()
         self.carrier.close()
         self.time_spent.close()
