@@ -232,6 +232,8 @@ class Actions:
             "bigram.previous", tr("P&revious in the Sentence"), "Alt+Left", tr("The sentence's previous bigram")
         )
 
+        self.work_menu = menu.submenu(tr("W&ork Through All"))
+
         menu.line()
         self.new_tab = menu.add(
             "bigram.new-tab",
@@ -242,7 +244,7 @@ class Actions:
         self.close_tab = menu.add("bigram.close-tab", tr("&Close the Tab"), "Ctrl+W", tr("Close this bigram's tab"))
         self.next_tab = menu.add("bigram.next-tab", tr("Ne&xt Tab"), "Ctrl+Tab", tr("The bigram of the next tab"))
         self.previous_tab = menu.add(
-            "bigram.previous-tab", tr("Pre&vious Tab"), "Ctrl+Shift+Tab", tr("The bigram of the previous tab")
+            "bigram.previous-tab", tr("Previo&us Tab"), "Ctrl+Shift+Tab", tr("The bigram of the previous tab")
         )
         self.beside = menu.add(
             "bigram.beside",

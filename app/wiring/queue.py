@@ -40,7 +40,7 @@ class Queue(QObject):
         self.shares: Mapping[Pair, float] = self.frequencies.shares
         self._order: list[Pair] = []
         self._ordered_for: tuple[object, object] = (None, None)
-        menu = self._window.actions_.bigram_menu
+        menu = self._window.actions_.work_menu
         menu.line()
         self.approve_action = menu.add(
             "bigram.approve",

@@ -56,8 +56,7 @@ class Weak(QObject):
         return timer
 
     def _connect(self) -> None:
-        panel, menu = self._window.weak_panel, self._window.actions_.bigram_menu
-        menu.line()
+        panel, menu = self._window.weak_panel, self._window.actions_.work_menu
         for name, text, key, way in (
             ("weak.next", self.tr("Next &Weak One"), ".", 1),
             ("weak.previous", self.tr("Previous Wea&k One"), ",", -1),
