@@ -202,7 +202,7 @@ class Actions:
         )
         menu.line()
         self.revert = menu.add(
-            "bigram.revert", tr("Re&vert to Base"), (), tr("The open bigram as the set below has it")
+            "bigram.revert", tr("Revert to Re&vert to BaseBase"), (), tr("The open bigram as the set below has it")
         )
         self.theirs = menu.add(
             "bigram.theirs",
