@@ -60,6 +60,12 @@ class Actions:
             (),
             tr("Start an empty set whose poses are the face's own shapes"),
         )
+        self.open_recording = menu.add(
+            "file.open-recording", tr("Open &Recording…"), "Ctrl+R", tr("Say what is said in a wav, flac, ogg or mp3")
+        )
+        self.open_labels = menu.add(
+            "file.open-labels", tr("Open &Label File…"), (), tr("Phones with times: TextGrid, HTK, ESPS, TIMIT")
+        )
         menu.line()
         self.save = menu.add("file.save", tr("&Save"), "Ctrl+S", tr("Save the curve set"))
         self.save_as = menu.add(
@@ -80,6 +86,12 @@ class Actions:
             tr("Export &Weights…"),
             "Ctrl+Shift+E",
             tr("Write this sentence's weights, frame by frame, as JSON or CSV"),
+        )
+        self.save_utterance = menu.add(
+            "file.save-utterance",
+            tr("Save P&hones and Words…"),
+            (),
+            tr("Keep what is said as a TextGrid or JSON, beside the recording"),
         )
         menu.line()
         self.quit = menu.add("file.quit", tr("&Quit"), "Ctrl+Q", tr("Close Lipstitch"))
@@ -244,6 +256,7 @@ class Actions:
         tr, menu = self._tr, self.registry.menu(self._tr("&Sentence"))
         self.sentence_menu = menu
         self.sentence = menu.add("sentence.type", tr("&Type a Sentence"), "Ctrl+L", tr("Go to the sentence"))
+        self.live = menu.add("sentence.live", tr("&Microphone…"), (), tr("Let the face say what is spoken now"))
         menu.line()
         self.pin_sentence = menu.add(
             "sentence.pin", tr("&Pin This Sentence"), "Ctrl+Shift+P", tr("Keep it in the list of test sentences")

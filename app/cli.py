@@ -134,6 +134,7 @@ def _in(module: str, function: str) -> Command:
 COMMANDS: Mapping[str, Command] = {
     "edit": _edit,
     "bake": _in("command_line.bake", "bake"),
+    "batch": _in("command_line.batch", "batch"),
     "check": _in("command_line.check", "check"),
     "convert": _in("command_line.curve_sets", "convert"),
     "diff": _in("command_line.curve_sets", "diff"),

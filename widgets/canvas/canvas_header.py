@@ -123,8 +123,9 @@ class CanvasHeader(QWidget):
 
     def set_time_spent(self, text: str) -> None:
         """How long the user has worked on the bigram, shown where there is room for it."""
-        self._spent = text
-        self._show()
+        if text != self._spent:
+            self._spent = text
+            self._show()
 
     def set_layer(self, text: str, own: bool) -> None:
         """Which layer the bigram comes from, "" where there is only one; its own one can be reverted."""
