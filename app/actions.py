@@ -72,7 +72,7 @@ class Actions:
             "file.save-as", tr("Save &As…"), "Ctrl+Shift+S", tr("Save the curve set in another file")
         )
         self.restore = menu.add(
-            "file.restore", tr("&Restore a Backup…"), (), tr("Go back to what was saved before, as one undo step")
+            "file.restore", tr("Restore a &Backup…"), (), tr("Go back to what was saved before, as one undo step")
         )
         menu.line()
         self.import_script = menu.add(
@@ -214,7 +214,7 @@ class Actions:
         )
         menu.line()
         self.revert = menu.add(
-            "bigram.revert", tr("Re&vert to Base"), (), tr("The open bigram as the set below has it")
+            "bigram.revert", tr("Revert t&o Base"), (), tr("The open bigram as the set below has it")
         )
         self.theirs = menu.add(
             "bigram.theirs",
