@@ -31,6 +31,7 @@ from .compare import Compare
 from .face_picker import FacePicking
 from .keys import KeysOfWindow
 from .layouts import Layouts
+from .learning import Learning
 from .looks import Looks
 from .mapping import Mapping
 from .open_bigram import OpenBigram
@@ -76,6 +77,7 @@ class Wiring(QObject):
         self.time_spent = TimeSpent(parts, self.bigram, self)
         self.compare = Compare(parts, self.bigram, self)
         self.other_method = OtherMethod(parts, self.character.company, self)
+        self.learning = Learning(parts, self)
         self.statistics = Statistics(parts, self.queue, self)
         self.palette = Palette(parts, self.bigram, self.sentence, self)
         self.keys = KeysOfWindow(parts, self)
@@ -329,3 +331,4 @@ class Wiring(QObject):
         self.carrier.close()
         self.time_spent.close()
         self.other_method.close()
+        self.learning.close()

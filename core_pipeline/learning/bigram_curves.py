@@ -11,7 +11,7 @@ in other pairs (ours). Pairs that were never seen are only offered, as suggest.p
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -72,6 +72,7 @@ class Learned:
 
     found    pairs that were spoken, most often first
     heard    every occurrence
+    blind    poses that the corpus could not show
     """
 
     poses: tuple[str, ...]
@@ -79,6 +80,7 @@ class Learned:
     phoneme_map: Mapping[str, str]
     found: Mapping[Pair, LearnedBigram]
     heard: Occurrences
+    blind: tuple[str, ...] = ()
 
     def curve_set(self, name: str = "Learned", like: CurveSet | None = None) -> CurveSet:
         """A set of the found bigrams alone; poses, settings and language of `like`, whose poses must include ours."""
@@ -99,6 +101,14 @@ class Learned:
         phones = (*self.phonemes, SILENCE)
         pairs = ((a, b) for a in phones for b in phones if (a, b) != (SILENCE, SILENCE))
         return {pair: suggestions.bigram(pair) for pair in pairs if pair not in self.found}
+
+    def beside(self, pair: Pair, old: Bigram | None) -> Bigram:
+        """A learned bigram in the place of another, of which the note and poses nobody could see are kept."""
+        found = self.found[pair].bigram
+        if old is None:
+            return found
+        kept = {pose: curve for pose, curve in old.curves.items() if pose in self.blind}
+        return replace(found, curves={**found.curves, **kept}, note=old.note, extra={**old.extra, **found.extra})
 
     def spoken(self, pair: Pair, pose: str) -> list[tuple[Array, Array]]:
         """(normalised times, weights) of the pose in every occurrence of a pair, where the face was seen."""
@@ -179,7 +189,7 @@ def _learned(corpus: Corpus, heard: Occurrences, curves: Array, errors: Array, t
         about = {"learned": {"occurrences": count, "residual": round(residual, 4)}}
         made = _curves(curves[row], corpus.poses, tolerance)
         found[pair] = LearnedBigram(Bigram(made, "draft", LEARNED, extra=about), count, residual)
-    return Learned(corpus.poses, corpus.phonemes, corpus.phoneme_map, found, heard)
+    return Learned(corpus.poses, corpus.phonemes, corpus.phoneme_map, found, heard, corpus.blind)
 
 
 def _curves(nodes: Array, poses: tuple[str, ...], tolerance: float) -> dict[str, Curve]:
