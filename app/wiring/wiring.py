@@ -42,6 +42,7 @@ from .queue import Queue
 from .sentence import RATE, Sentence
 from .sentences import Sentences
 from .statistics import Statistics
+from .studying import Studying
 from .suggesting import Suggesting
 from .tabs import Tabs
 from .time_spent import TimeSpent
@@ -78,6 +79,7 @@ class Wiring(QObject):
         self.compare = Compare(parts, self.bigram, self)
         self.other_method = OtherMethod(parts, self.character.company, self)
         self.learning = Learning(parts, self)
+        self.studying = Studying(parts, self)
         self.statistics = Statistics(parts, self.queue, self)
         self.palette = Palette(parts, self.bigram, self.sentence, self)
         self.keys = KeysOfWindow(parts, self)
@@ -332,3 +334,4 @@ class Wiring(QObject):
         self.time_spent.close()
         self.other_method.close()
         self.learning.close()
+        self.studying.close()
