@@ -21,6 +21,7 @@ from ..curve_set import Bigram, CurveSet
 from ..curves import Curve
 from ..errors import UserError
 from ..methods.method import Progress, no_progress
+from ..one_thread import one_thread
 from ..phonemes import SILENCE, Pair
 from ..simplify import simplified
 from ..suggest import Suggestions
@@ -97,10 +98,11 @@ class Learned:
     @cached_property
     def offered(self) -> Mapping[Pair, Bigram]:
         """Pairs that were never spoken, those of silence too, each with a suggestion from those that were."""
-        suggestions = Suggestions.of(self.curve_set()).prepared()
         phones = (*self.phonemes, SILENCE)
-        pairs = ((a, b) for a in phones for b in phones if (a, b) != (SILENCE, SILENCE))
-        return {pair: suggestions.bigram(pair) for pair in pairs if pair not in self.found}
+        pairs = [(a, b) for a in phones for b in phones if (a, b) not in self.found and (a, b) != (SILENCE, SILENCE)]
+        with one_thread():
+            suggestions = Suggestions.of(self.curve_set()).prepared()
+            return {pair: suggestions.bigram(pair) for pair in pairs}
 
     def beside(self, pair: Pair, old: Bigram | None) -> Bigram:
         """A learned bigram in the place of another, of which the note and poses nobody could see are kept."""
@@ -125,7 +127,11 @@ class Learned:
 
 def learn_bigrams(corpus: Corpus, options: LearnOptions | None = None, progress: Progress = no_progress) -> Learned:
     """Learn. UserError when no pair of the corpus's phonemes was seen; whatever `progress` raises ends it."""
-    options = options or LearnOptions()
+    with one_thread():
+        return _learn(corpus, options or LearnOptions(), progress)
+
+
+def _learn(corpus: Corpus, options: LearnOptions, progress: Progress) -> Learned:
     heard = occurrences_of(corpus)
     phones = {*corpus.phonemes, SILENCE}
     silent = (SILENCE, SILENCE)
