@@ -14,10 +14,11 @@ from core_pipeline.weights import Weights
 
 from .. import theme
 from .method_box import MethodBox
+from .phone_hand import PhoneHand
 from .stage_chip import StageChip
+from .stage_footer import Span
 from .stage_layers import LAYERS
 from .stage_marks import Mark
-from .stage_overlay import StageOverlay
 from .stage_picking import Reading
 from .stage_rows import MODES
 from .time_axis import clock
@@ -46,7 +47,7 @@ class StagePanel(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.overlay = StageOverlay(self)
+        self.overlay = PhoneHand(self)
         self.chips = [StageChip(layer.name, i + 1, self) for i, layer in enumerate(LAYERS)]
         self.mode_box = QComboBox(self)
         self.method_box = MethodBox(self)
@@ -99,6 +100,10 @@ class StagePanel(QWidget):
     def set_source_phones(self, phones: Sequence[str] | None) -> None:
         """The language's own phone for each phone of the schedule; ignored while their numbers differ."""
         self.overlay.set_source_phones(phones)
+
+    def set_words(self, words: Sequence[Span]) -> None:
+        """The words of the utterance: text, start and end in seconds."""
+        self.overlay.set_words(words)
 
     def set_active_pose(self, pose: str) -> None:
         """The pose whose row is tall."""

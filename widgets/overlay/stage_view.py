@@ -19,10 +19,10 @@ from core_pipeline.weights import Weights
 
 from .. import theme
 from . import stage_backdrop as backdrop
-from .stage_footer import ROW, Footer
+from .stage_footer import ROW, Footer, Span
 from .stage_layers import LAYERS, RowPlace, draw_ghost, draw_method, draw_origin, draw_other
 from .stage_lines import Line, PoseLines, pose_lines, weights_lines
-from .stage_marks import Mark, draw_marks
+from .stage_marks import HALF, Mark, draw_marks
 from .stage_picking import Reading, curve_of
 from .stage_rows import MODES, Row, lay_out
 from .time_axis import TimeAxis
@@ -45,6 +45,7 @@ class StageView(QWidget):
         self._method: dict[str, Line] = {}
         self._marks: tuple[Mark, ...] = ()
         self._sources: tuple[str, ...] = ()
+        self._words: tuple[Span, ...] = ()
         self._active = ""
         self._index: int | None = None
         self._pair: Pair | None = None
@@ -86,6 +87,13 @@ class StageView(QWidget):
         if sources != self._sources:
             self._sources = sources
             self._redraw()
+
+    def set_words(self, words: Sequence[Span]) -> None:
+        """The words of the utterance: text, start and end in seconds; without any there is no row for them."""
+        if tuple(words) != self._words:
+            self._words = tuple(words)
+            self._redraw()
+            self._lay_out()
 
     def set_active_pose(self, pose: str) -> None:
         """The pose whose row is tall."""
@@ -210,8 +218,8 @@ class StageView(QWidget):
 
     @property
     def footer_rows(self) -> int:
-        """Time, Phoneme and Start; fewer where the overlay is very low."""
-        return 3 if self.height() >= 130 else 2
+        """Time, Phoneme and Start, and Word where there are any; fewer where the overlay is very low."""
+        return (3 + bool(self._words)) if self.height() >= 130 else 2
 
     # Layout
 
@@ -224,7 +232,7 @@ class StageView(QWidget):
     def _lay_out(self) -> None:
         peaks = {pose: lines.peak for pose, lines in self._lines.items()}
         rows = lay_out(tuple(self._lines), self.active_pose, peaks, self._mode, self.rows_height)
-        gutter = self._names.width([*self._lines, *(title + "  +9" for title in self._footer.titles(3))])
+        gutter = self._names.width([*self._lines, *(title + "  +9" for title in self._footer.titles(4))])
         axis = self._axis.with_pixels(float(min(gutter, self.width() // 3)), float(self.width() - _RIGHT))
         if (rows, axis) != (self._rows, self._axis):
             self._rows, self._axis = rows, axis
@@ -273,7 +281,9 @@ class StageView(QWidget):
             for row in self._rows:
                 if event.rect().intersects(QRect(0, row.top, self.width(), row.height)):
                     painter.drawPixmap(0, row.top, self.row_pixmap(row))
-            draw_marks(painter, self._marks, self._axis, self.row_of)
+            first, last = (self._axis.left + (x - self._axis.x0) / self._axis.scale for x in _around(event.rect()))
+            marks = [mark for mark in self._marks if first <= mark.time <= last]
+            draw_marks(painter, marks, self._axis, self.row_of)
             self._paint_reading(painter, self._stages)
             backdrop.draw_playhead(painter, self._axis, self._playhead, self.height())
         if self.hasFocus():
@@ -326,7 +336,7 @@ class StageView(QWidget):
         box = QRect(0, tall, self.width(), self.height() - tall)
         lit = frozenset() if span is None or self._index is None else frozenset((self._index, self._index + 1))
         sources = self._sources if len(self._sources) == len(stages.schedule) else ()
-        self._footer.draw(painter, box, axis, stages, sources, lit, self._loop)
+        self._footer.draw(painter, box, axis, stages, sources, lit, self._loop, self._words)
         if hidden := len(self._lines) - len(self._rows) if self._mode != "one" else 0:
             painter.setFont(self._names.small)
             painter.setPen(theme.WEAK)
@@ -365,6 +375,11 @@ class StageView(QWidget):
             draw_method(painter, place, method)
         painter.end()
         return pixmap
+
+
+def _around(rect: QRect) -> tuple[int, int]:
+    """The columns from which a mark reaches into `rect`."""
+    return rect.left() - HALF - 1, rect.right() + HALF + 1
 
 
 def _same_ground(one: Stages | None, other: Stages | None) -> bool:
