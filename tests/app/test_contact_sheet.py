@@ -5,10 +5,10 @@ import pytest
 from PIL import Image
 
 from app.cli import main
-from app.command_line.contact_sheet import TONGUE_OPEN, poses_of, sheet
+from app.command_line.contact_sheet import poses_of, sheet
 from app.resources import face_folder
 from app.rigs import open_rig
-from core_pipeline.poses import FACEFX
+from core_pipeline.poses import FACEFX, TONGUE_OPEN
 from tests.helpers.rigs import NAMES, as_glb, head
 
 
