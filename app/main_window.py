@@ -248,6 +248,7 @@ class MainWindow(QMainWindow):
             label.setTextFormat(Qt.TextFormat.PlainText)  # names from files are no markup
         bar = self.statusBar()
         bar.setSizeGripEnabled(False)
+        bar.setContentsMargins(4, 0, 8, 0)
         bar.addWidget(self.selection_label)
         bar.addWidget(self.hint_label, 1)
         for label in (self.missing_label, self.timing_label, self.saved_label):
