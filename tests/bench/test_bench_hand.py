@@ -42,6 +42,8 @@ def test_a_drag_at_200_hertz(benchmark, editor, qtbot, capsys, playing):
     seen.painted("overlay", window.stage_panel.overlay)
     editor.session.stages_changed.connect(seen.note("stages"))
     editor.preview.frame_ready.connect(seen.note("face"))
+    if benchmark.enabled:
+        qtbot.waitUntil(lambda: len(seen.times["face"]) > 1, timeout=20_000)
     # In a suite run for correctness a few events show that it works.
     way = recorded(3.0 if benchmark.enabled else 0.25)
     due, cpu = [], []
