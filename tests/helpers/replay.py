@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QEventLoop, QPointF, Qt, QTimer
+from PySide6.QtCore import QEventLoop, QPointF, QTimer
 from PySide6.QtWidgets import QApplication, QWidget
 
 from tests.helpers import mouse
@@ -63,7 +63,7 @@ class Seen:
 def _rest() -> None:
     """Lets a millisecond of events pass without busy waiting: the face needs the processor."""
     loop = QEventLoop()
-    QTimer.singleShot(1, Qt.TimerType.PreciseTimer, loop.quit)
+    QTimer.singleShot(1, loop.quit)
     loop.exec()
 
 
