@@ -60,6 +60,12 @@ class Actions:
             (),
             tr("Start an empty set whose poses are the face's own shapes"),
         )
+        self.open_recording = menu.add(
+            "file.open-recording", tr("Open &Recording…"), "Ctrl+R", tr("Say what is said in a wav, flac, ogg or mp3")
+        )
+        self.open_labels = menu.add(
+            "file.open-labels", tr("Open &Label File…"), (), tr("Phones with times: TextGrid, HTK, ESPS, TIMIT")
+        )
         menu.line()
         self.save = menu.add("file.save", tr("&Save"), "Ctrl+S", tr("Save the curve set"))
         self.save_as = menu.add(
@@ -81,6 +87,12 @@ class Actions:
             "Ctrl+Shift+E",
             tr("Write this sentence's weights, frame by frame, as JSON or CSV"),
         )
+        self.save_utterance = menu.add(
+            "file.save-utterance",
+            tr("Save P&hones and Words…"),
+            (),
+            tr("Keep what is said as a TextGrid or JSON, beside the recording"),
+        )
         menu.line()
         self.quit = menu.add("file.quit", tr("&Quit"), "Ctrl+Q", tr("Close Lipstitch"))
 
@@ -95,6 +107,11 @@ class Actions:
         )
         self.redo.setIcon(theme.icon("redo"))
         self.redo.setStatusTip(tr("Make the change again that was taken back"))
+        menu.line()
+        self.phone_set = menu.add(
+            "edit.phones", tr("&Phone Set…"), (), tr("Add, split, rename and remove phonemes; see first what changes")
+        )
+        self.author = menu.add("edit.author", tr("&Author…"), (), tr("The name that your bigrams bear in the file"))
         menu.line()
         keys = menu.submenu(tr("&Keys of the Canvas"))
         self.keymaps: QActionGroup = keys.choice()
@@ -196,6 +213,15 @@ class Actions:
             "bigram.play", tr("&Play the Bigram Alone"), "Shift+F5", tr("Play or stop the open bigram")
         )
         menu.line()
+        self.revert = menu.add(
+            "bigram.revert", tr("Re&vert to Base"), (), tr("The open bigram as the set below has it")
+        )
+        self.theirs = menu.add(
+            "bigram.theirs",
+            tr("S&wap with the Other Side's Curves"),
+            (),
+            tr("Where a merge left this bigram undecided; editing or approving decides"),
+        )
         self.swapped = menu.add(
             "bigram.swapped", tr("Open the &Swapped Pair"), "Ctrl+Shift+B", tr("From f-ah to ah-f and back")
         )
@@ -230,6 +256,7 @@ class Actions:
         tr, menu = self._tr, self.registry.menu(self._tr("&Sentence"))
         self.sentence_menu = menu
         self.sentence = menu.add("sentence.type", tr("&Type a Sentence"), "Ctrl+L", tr("Go to the sentence"))
+        self.live = menu.add("sentence.live", tr("&Microphone…"), (), tr("Let the face say what is spoken now"))
         menu.line()
         self.pin_sentence = menu.add(
             "sentence.pin", tr("&Pin This Sentence"), "Ctrl+Shift+P", tr("Keep it in the list of test sentences")

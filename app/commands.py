@@ -7,12 +7,15 @@ document, which extends the newest command.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
 
 from PySide6.QtGui import QUndoCommand
 
 from core_pipeline.curve_set import Bigram, CurveSet
 from core_pipeline.phonemes import Pair
 from core_pipeline.settings import Settings
+from core_pipeline.speech.utterance import Utterance
 
 
 class EditBigram(QUndoCommand):
@@ -84,6 +87,26 @@ class ChangeSet(QUndoCommand):
         self._apply(self.before)
 
 
+class EditUtterance(QUndoCommand):
+    """What is said, before and after. No part of the curve set: see Document.push_aside."""
+
+    of_set = False
+
+    def __init__(self, put: Callable[[Utterance], None], before: Utterance, after: Utterance, label: str) -> None:
+        super().__init__(label)
+        self._put = put
+        self.before = before
+        self.after = after
+
+    def redo(self) -> None:
+        """Say the new one."""
+        self._put(self.after)
+
+    def undo(self) -> None:
+        """Say the old one again."""
+        self._put(self.before)
+
+
 class ChangeSettings(QUndoCommand):
     """The pipeline's settings before and after."""
 
@@ -102,3 +125,39 @@ class ChangeSettings(QUndoCommand):
     def undo(self) -> None:
         """Use the old settings again."""
         self._apply(self.before)
+
+
+class ChangeMapping(QUndoCommand):
+    """What makes the poses of one face, before and after. No part of the curve set: see Document.push_aside."""
+
+    of_set = False
+
+    def __init__(
+        self,
+        apply: Callable[[Path, MappingOfFace], None],
+        face: Path,
+        before: MappingOfFace,
+        after: MappingOfFace,
+        label: str,
+    ) -> None:
+        super().__init__(label)
+        self._apply = apply
+        self.face = face
+        self.before = before
+        self.after = after
+
+    def redo(self) -> None:
+        """Use the new mixes."""
+        self._apply(self.face, self.after)
+
+    def undo(self) -> None:
+        """Use the old mixes again."""
+        self._apply(self.face, self.before)
+
+
+@dataclass(frozen=True, eq=False)
+class MappingOfFace:
+    """preset: the naming convention the mixes began with; mixes: pose → shape → amount"""
+
+    preset: str
+    mixes: Mapping[str, Mapping[str, float]]

@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
-from PySide6.QtGui import QUndoStack
+from PySide6.QtGui import QUndoCommand, QUndoStack
 
 from core_pipeline.curve_set import Bigram, CurveSet
 from core_pipeline.curves import Curve
@@ -56,8 +56,9 @@ class Document(QObject):
         self.on_disk: CurveSet | None = None
         self.digest = ""
         self.undo_stack = QUndoStack(self)
-        self.undo_stack.cleanChanged.connect(self._clean_changed)
+        self.undo_stack.indexChanged.connect(self._index_changed)
         self._recovered = False
+        self._was_dirty = False
         self._last: EditBigram | None = None
 
     # ── edits ────────────────────────────────────────────────────────────────────────────────────
@@ -90,6 +91,8 @@ class Document(QObject):
         self._check_editable()
         if not self.curve_set.has_pair(pair):
             raise UserError(f"{pair[0]}-{pair[1]} is not a bigram of this set: choose another.")
+        if bigram.status == "approved":
+            bigram = decided(bigram)
         self.undo_stack.push(EditBigram(self._put_bigram, pair, self.curve_set.bigrams.get(pair), bigram, label))
 
     def put_bigrams(self, bigrams: Mapping[Pair, Bigram], label: str) -> None:
@@ -119,6 +122,14 @@ class Document(QObject):
         self._check_editable()
         self.great_change.emit(label)
         self.undo_stack.push(ChangeSet(self._put_set, self.curve_set, after, label))
+
+    def push_aside(self, command: QUndoCommand) -> None:
+        """An undo step that changes something else than this set, which stays as clean as it is.
+
+        The class of the command says so: `of_set = False`.
+        """
+        self._last = None
+        self.undo_stack.push(command)
 
     def _extend_nudge(self, pair: Pair, after: Bigram) -> bool:
         """Several presses of an arrow key are one step: give the newest command a new end."""
@@ -157,7 +168,14 @@ class Document(QObject):
     @property
     def is_dirty(self) -> bool:
         """Whether closing now would lose something."""
-        return self._recovered or not self.undo_stack.isClean()
+        return self._recovered or self._changed_since_clean()
+
+    def _changed_since_clean(self) -> bool:
+        """Whether a step that lies between the saved state and now changed the set."""
+        stack = self.undo_stack
+        clean, now = stack.cleanIndex(), stack.index()
+        steps = range(min(clean, now), max(clean, now))
+        return clean < 0 or any(getattr(stack.command(i), "of_set", True) for i in steps)
 
     @property
     def title(self) -> str:
@@ -216,6 +234,7 @@ class Document(QObject):
         self.path = target
         self._recovered = False
         self.undo_stack.setClean()
+        self._was_dirty = False
         self.file_changed.emit()
 
     def take_from_disk(self) -> CurveSet:
@@ -234,11 +253,14 @@ class Document(QObject):
         self._recovered = unsaved
         self._last = None
         self.undo_stack.clear()
+        self._was_dirty = unsaved
         self.replaced.emit()
         self.file_changed.emit()
 
-    def _clean_changed(self) -> None:
-        self.file_changed.emit()
+    def _index_changed(self) -> None:
+        if self.is_dirty != self._was_dirty:
+            self._was_dirty = not self._was_dirty
+            self.file_changed.emit()
 
 
 def _digest(data: bytes) -> str:

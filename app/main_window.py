@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from core_pipeline.speech.espeak import FASTEST, SLOWEST
 from widgets.canvas.bigram_transport import BigramTransport
 from widgets.canvas.canvas_header import CanvasHeader
 from widgets.canvas.curve_canvas import CurveCanvas
@@ -34,6 +35,9 @@ from widgets.preview.preview_panel import PreviewPanel
 from widgets.preview.weights_bars import WeightsBars
 from widgets.sentence_bar import SentenceBar
 from widgets.settings.settings_panel import SettingsPanel
+from widgets.speech.live_panel import LivePanel
+from widgets.speech.recording_panel import RecordingPanel
+from widgets.speech.voice_panel import VoicePanel
 from widgets.transport import Transport
 from widgets.voice_bar import VoiceBar
 from widgets.window.beside_panel import BesidePanel
@@ -94,6 +98,9 @@ class MainWindow(QMainWindow):
         self.sentence_bar = SentenceBar()
         self.voice_bar = VoiceBar()
         self.sentence_list = SentenceList()
+        self.recording_panel = RecordingPanel()
+        self.voice_panel = VoicePanel(SLOWEST, FASTEST)
+        self.live_panel = LivePanel()
         self.keymap_question = KeymapQuestion()
 
         self.actions_ = Actions(self, document.undo_stack)
@@ -235,7 +242,11 @@ class MainWindow(QMainWindow):
         self.settings_dock = self.add_dock("settings", self.tr("Pipeline settings"), self.settings_panel, right)
         self.stages_dock = self.add_dock("stages", self.tr("Pipeline stages"), self.stage_panel, below)
         self.mapping_dock = self.add_dock("mapping", self.tr("Face mapping"), self.mapping_panel, right)
-        self.mapping_dock.hide()
+        self.recording_dock = self.add_dock("recording", self.tr("Recording"), self.recording_panel, left)
+        self.voice_dock = self.add_dock("voice", self.tr("Voice"), self.voice_panel, left)
+        self.live_dock = self.add_dock("live", self.tr("Microphone"), self.live_panel, left)
+        for dock in (self.mapping_dock, self.recording_dock, self.voice_dock, self.live_dock):
+            dock.hide()
 
     def add_dock(self, name: str, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
         """A dock with a switch in View → Docks; `name` is what the layout is remembered by."""

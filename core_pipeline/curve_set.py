@@ -104,7 +104,13 @@ class CurveSet:
                 bigrams.pop(pair, None)
             else:
                 bigrams[pair] = plays
-        return replace(self, bigrams=bigrams)
+        changed, packed = replace(self, bigrams=bigrams), self.__dict__.get("packed")
+        if packed is not None and len(changes) == 1:
+            (pair,) = changes
+            quick = packed.with_bigram(pair, bigrams[pair]) if pair in self.bigrams and pair in bigrams else None
+            if quick is not None:
+                changed.__dict__["packed"] = quick  # what cached_property would make, without packing all anew
+        return changed
 
     def with_settings(self, settings: Settings) -> CurveSet:
         """The same curves with other settings."""

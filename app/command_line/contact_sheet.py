@@ -38,6 +38,12 @@ def contact_sheet(options: argparse.Namespace) -> int:
     out: Path = options.out
     if out.suffix.lower() != ".png":
         raise UserError(f"Cannot tell the format of {out}: name the picture .png.")
+    if options.face == "all":
+        from .line_up import line_up
+
+        return line_up(options)
+    if options.portraits:
+        raise UserError("--portraits shows our characters together: write contact-sheet all --portraits.")
     path = face_path(options.face)
     poses = curve_set_json.read(options.curves or curves_of(path)).curve_set.poses
     face = open_rig(path, poses).face

@@ -13,6 +13,7 @@ from core_pipeline.files import curve_set_json
 from core_pipeline.files.json_text import shown
 
 from .. import resources
+from ..aligner import aligner
 from .corpus import spoken
 from .progress import Progress
 from .steps import tell
@@ -79,8 +80,8 @@ def read_corpus(path: Path, like: CurveSet, voice: str) -> Corpus:
         method = BigramMethod(like)
         clips = [Clip.of(text, s, method.synthesize(s, like.poses, 60)) for text, s in spoken(path, voice)]
         return Corpus.of(clips, like.phonemes, like.phoneme_map)
-    with Progress(_STEPS, "files") as progress:
-        corpus = Reader(like, load_presets(resources.retarget_presets())).read(
+    with Progress(_STEPS, "files") as progress, aligner(voice) as align:
+        corpus = Reader(like, load_presets(resources.retarget_presets()), align).read(
             path, lambda share, name: progress.step(round(share * _STEPS), f"thousandths: {name}")
         )
     for note in corpus.notes[:MOST_NOTES]:

@@ -14,6 +14,7 @@ from core_pipeline.files.atomic import reason
 from core_pipeline.phonemes import pair_name
 from core_pipeline.pipeline import Stages
 from core_pipeline.settings import PRESETS
+from core_pipeline.speech.intake import Intake, Source
 from core_pipeline.speech.speaker import speak
 from core_pipeline.speech.utterance import Utterance
 from core_pipeline.speech.wav import write_wav
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from core_pipeline.methods.method import Method
 
 from .. import resources
+from .progress import Progress
 
 
 def tell(line: str) -> None:
@@ -51,6 +53,20 @@ def load_model(path: Path) -> Method:
 def say(text: str, voice: str) -> Utterance:
     """The text spoken; what is odd about it is told. UserError when there is nothing to say."""
     utterance = speak(text, voice)
+    for note in utterance.notes:
+        tell(note)
+    return utterance
+
+
+def hear(source: Source, curve_set: CurveSet) -> Utterance:
+    """What a source says, with a bar for long recordings; what is odd about it is told. UserError."""
+    intake = Intake()
+    try:
+        with Progress(100, "percent") as bar:
+            known = [*curve_set.phonemes, *curve_set.phoneme_map]
+            utterance = intake.utter(source, known, lambda done: bar.step(round(100 * done)))
+    finally:
+        intake.close()
     for note in utterance.notes:
         tell(note)
     return utterance

@@ -18,6 +18,7 @@ from core_pipeline.poses import shown_alone
 from widgets.preview.mapping_panel import REFERENCE
 
 from .. import resources
+from ..commands import ChangeMapping, MappingOfFace
 from ..reference import Reference
 from .parts import Parts
 
@@ -31,7 +32,7 @@ class Mapping(QObject):
     """Joins the mapping panel, the preview and the file beside the rig.
 
     What was changed and not saved is kept for each face until the program ends, so that another look at
-    another face loses nothing; closing the window asks.
+    another face loses nothing; closing the window asks. Every change is a step of the document's undo stack.
     """
 
     def __init__(self, parts: Parts, parent: QObject) -> None:
@@ -41,6 +42,7 @@ class Mapping(QObject):
         self._preview = parts.preview
         self._session = parts.session
         self._faces = parts.faces
+        self._document = parts.document
         self._presets: dict[str, Preset] = {}
         self._path = Path()
         self._opened: Opened | None = None
@@ -48,6 +50,9 @@ class Mapping(QObject):
         self._mixes: Mixes = {}
         self._begun_with = self._saved_with = ""  # the preset they come from
         self._unsaved: dict[Path, tuple[str, Mixes]] = {}
+        self._saved_of: dict[Path, Mixes] = {}  # of every face that was opened
+        self._slide: ChangeMapping | None = None  # the newest step, while its slide lasts
+        self._by_hand = False  # a change of the panel's own is being taken in
         self._reference = Reference(self)
         self._connect()
 
@@ -58,6 +63,7 @@ class Mapping(QObject):
         self._preview.pose_held.connect(panel.set_held)
         self._window.mapping_dock.visibilityChanged.connect(lambda _: self._refer())
         panel.pose_picked.connect(lambda _: self._refer())
+        panel.settled.connect(self._settle)
         panel.pose_shown.connect(lambda pose: self._preview.show_pose(self._alone(pose)))
         panel.mix_changed.connect(self._change)
         panel.preset_chosen.connect(self._choose_preset)
@@ -89,6 +95,7 @@ class Mapping(QObject):
         if not self._write(self._path, self._begun_with, self._mixes):
             return False
         self._saved, self._saved_with = _copied(self._mixes), self._begun_with
+        self._saved_of[self._path] = self._saved
         self._apply()
         return True
 
@@ -108,6 +115,8 @@ class Mapping(QObject):
             return  # passed over for one that can make the poses
         self._path, self._opened = self._faces.path, opened
         self._saved, self._saved_with = _copied(opened.retarget.poses), opened.retarget.preset
+        self._saved_of[self._path] = self._saved
+        self._settle()
         preset, mixes = self._unsaved.get(self._path, (opened.retarget.preset, {}))
         self._begun_with = preset
         self._mixes = {**_copied(self._saved), **_copied(mixes)}
@@ -171,22 +180,49 @@ class Mapping(QObject):
     # ── wishes ───────────────────────────────────────────────────────────────────────────────────
 
     def _change(self, pose: str, mix: Mix) -> None:
-        self._mixes[pose] = dict(mix)
-        self._apply()
+        mixes = {**self._mixes, pose: dict(mix)}
+        slide, stack = self._slide, self._document.undo_stack
+        self._by_hand = True  # the panel shows it already
+        if slide is not None and stack.command(stack.index() - 1) is slide:
+            slide.after = MappingOfFace(self._begun_with, mixes)  # all of a slide is one undo step
+            self._put(self._path, slide.after)
+        else:
+            self._push(self._begun_with, mixes, self.tr("Mix {0}").format(pose))
+        self._by_hand = False
         if not (self._preview.player.playing or self._preview.bigram_player.playing):
             self._preview.show_pose(self._alone(pose))
 
+    def _settle(self) -> None:
+        """The next change is another step."""
+        self._slide = None
+
     def _choose_preset(self, name: str) -> None:
         made = self._by(self._known_presets()[name])
-        self._begun_with = name
-        self._mixes.update({pose: dict(made.get(pose, {})) for pose in self._poses})
-        self._apply()
-        self._show()
+        mixes = {**self._mixes, **{pose: dict(made.get(pose, {})) for pose in self._poses}}
+        self._push(name, mixes, self.tr("Choose a preset for the face"))
 
     def _revert(self) -> None:
-        self._begun_with, self._mixes = self._saved_with, _copied(self._saved)
-        self._apply()
-        self._show()
+        self._push(self._saved_with, self._saved, self.tr("Revert the face mapping"))
+
+    def _push(self, preset: str, mixes: ReadOnly[str, Mix], label: str) -> None:
+        before = MappingOfFace(self._begun_with, _copied(self._mixes))
+        step = ChangeMapping(self._put, self._path, before, MappingOfFace(preset, _copied(mixes)), label)
+        self._document.push_aside(step)
+        self._slide = step if self._by_hand else None
+
+    def _put(self, face: Path, mapping: MappingOfFace) -> None:
+        """Give a face these mixes, whether it is the open one or not."""
+        mixes = _copied(mapping.mixes)
+        if face == self._path:
+            self._begun_with, self._mixes = mapping.preset, mixes
+            self._apply()
+            if not self._by_hand:
+                self._settle()
+                self._show()
+        elif _plain(mixes) != _plain(self._saved_of.get(face, {})):
+            self._unsaved[face] = (mapping.preset, mixes)
+        else:
+            self._unsaved.pop(face, None)
 
     def _apply(self) -> None:
         """Draw with the present mixes, and remember what is not saved."""

@@ -37,7 +37,7 @@ class Tabs(QObject):
         self._tabs: list[Tab] = [self._new(None)]
         self._at = 0
         bigram.opened.connect(self._opened)
-        parts.document.replaced.connect(self.forget)
+        parts.document.replaced.connect(self._replaced)
         self._view.tab_picked.connect(self.go)
         self._view.close_wanted.connect(self.close)
         self._view.order_wanted.connect(self._reordered)
@@ -83,9 +83,13 @@ class Tabs(QObject):
             self._at = min(self._at - (index < self._at), len(self._tabs) - 1)
             self.go(self._at) if was_open else self._show()
 
-    def forget(self) -> None:
-        """Another set: one tab again."""
-        self._tabs, self._at = [self._new(self._bigram.pair)], 0
+    def _replaced(self) -> None:
+        """Another set, or the same after a great change: the bigrams it has stay open."""
+        curve_set = self._document.curve_set
+        open_pair = self._tabs[self._at].pair
+        kept = [self._new(pair) for pair in self.pairs if pair is not None and curve_set.has_pair(pair)]
+        self._tabs = kept or [self._new(None)]
+        self._at = self.pairs.index(open_pair) if open_pair in self.pairs else 0
         self._show()
 
     def _opened(self, pair: Pair | None) -> None:

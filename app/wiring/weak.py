@@ -103,6 +103,8 @@ class Weak(QObject):
 
     def _ask(self) -> None:
         session, w = self._session, self._window
+        if session.in_gesture:  # the hand comes first, and when it ends there is a new result
+            return
         stages = session.stages
         w.picker.set_used(session.used())
         pairs = stages.schedule.pairs() if stages is not None else []
@@ -110,7 +112,7 @@ class Weak(QObject):
         w.picker.set_words({pair: text for pair, (text, _) in words if text})
         if stages is not None and stages.poses != session.curve_set.poses:
             return  # another set has just been opened: its stages are on their way
-        if not session.in_gesture and not session.shows_other:  # when it ends there is a new result
+        if not session.shows_other:  # when it ends there is a new result
             self._diagnoser.request((session.curve_set, stages))
 
     def _diagnosed(self, diagnosis: Diagnosis) -> None:

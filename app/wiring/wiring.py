@@ -30,15 +30,19 @@ from .character import Character
 from .compare import Compare
 from .face_picker import FacePicking
 from .keys import KeysOfWindow
+from .layers import Layers
 from .layouts import Layouts
 from .looks import Looks
 from .mapping import Mapping
 from .open_bigram import OpenBigram
+from .other_method import OtherMethod
 from .palette import Palette
 from .parts import Parts
+from .phone_sets import PhoneSets
 from .queue import Queue
 from .sentence import RATE, Sentence
 from .sentences import Sentences
+from .speech_in import SpeechIn
 from .statistics import Statistics
 from .suggesting import Suggesting
 from .tabs import Tabs
@@ -64,6 +68,7 @@ class Wiring(QObject):
         self.bigram = OpenBigram(parts, self)
         self.tabs = Tabs(parts, self.bigram, self)
         self.sentence = Sentence(parts, self)
+        self.speech_in = SpeechIn(parts, self.sentence, self)
         self.sentences = Sentences(parts, self.sentence, self)
         self.character = Character(parts, self)
         self.picking = FacePicking(parts, self.character, self)
@@ -76,12 +81,16 @@ class Wiring(QObject):
         self.queue = Queue(parts, self.bigram, self.weak, self.carrier, self)
         self.time_spent = TimeSpent(parts, self.bigram, self)
         self.compare = Compare(parts, self.bigram, self)
+        self.other_method = OtherMethod(parts, self.character.company, self)
         self.statistics = Statistics(parts, self.queue, self)
+        self.layers = Layers(parts, self.bigram, self)
+        self.phone_sets = PhoneSets(parts, self)
         self.palette = Palette(parts, self.bigram, self.sentence, self)
         self.keys = KeysOfWindow(parts, self)
         self.layouts = Layouts(parts, self.keys.shortcuts, self)
         self.before_after = BeforeAfter(parts, self)
         self.bigram.opened.connect(self.before_after.forget)
+        self.queue.frequencies_changed.connect(self._show_orders)
         self._connect_document()
         self.beside = Beside(parts, self.bigram, self)  # after: it follows what the document has told the canvas
         self._connect_views()
@@ -118,6 +127,7 @@ class Wiring(QObject):
         w.bigram_transport.play_toggled.connect(preview.toggle_bigram)
         w.bigram_transport.length_changed.connect(preview.set_bigram_length)
         w.settings_panel.settings_changed.connect(self._settings_wanted)
+        w.picker.entered.connect(w.canvas.setFocus)
         w.picker.search_wanted.connect(lambda text: self._search.request(text, self.sentence.voice, RATE))
         self._search.spoken.connect(self._word_found)
         self._search.failed.connect(self._word_not_found)
@@ -137,6 +147,7 @@ class Wiring(QObject):
             (a.new_on_base, self.exchange.ask_new_on_base),
             (a.import_script, self.exchange.ask_import),
             (a.restore, self._files.ask_restore),
+            (a.author, self._files.ask_author),
             (a.export, self.exchange.ask_export),
             (a.export_weights, self.exchange.ask_export_weights),
             (a.quit, w.close),
@@ -163,13 +174,7 @@ class Wiring(QObject):
 
     def _set_replaced(self) -> None:
         curve_set, w = self._document.curve_set, self._window
-        w.picker.set_orders(
-            {
-                self.tr("As in the set"): curve_set.phonemes,
-                self.tr("By class"): by_class(curve_set.phonemes),
-                self.tr("By frequency"): by_frequency(curve_set.phonemes),
-            }
-        )
+        self._show_orders()
         w.pose_list.set_poses(curve_set.poses, {p: MEANING[p] for p in curve_set.poses if p in MEANING})
         w.canvas.set_poses(curve_set.poses)
         w.weights.set_poses(curve_set.poses)
@@ -179,6 +184,17 @@ class Wiring(QObject):
         self._show_statuses()
         self.bigram.set_replaced()
         self.character.set_poses(curve_set.poses)
+
+    def _show_orders(self) -> None:
+        """In which orders the picker can show the phones."""
+        phones = self._document.curve_set.phonemes
+        self._window.picker.set_orders(
+            {
+                self.tr("As in the set"): phones,
+                self.tr("By class"): by_class(phones),
+                self.tr("By frequency"): by_frequency(phones, self.queue.shares),
+            }
+        )
 
     def _bigram_changed(self, pair: Pair) -> None:
         curve_set = self._document.curve_set
@@ -223,11 +239,13 @@ class Wiring(QObject):
         w.setWindowModified(document.is_dirty)
         if document.read_only_reason:
             text = self.tr("read-only")
+            w.hint_label.setText(document.read_only_reason)
         elif document.is_dirty:
             text = self.tr("unsaved changes")
         else:
             text = self.tr("saved") if document.path is not None else self.tr("no changes")
         w.saved_label.setText(text)
+        w.saved_label.setToolTip(document.read_only_reason)
 
     def _show_saved(self) -> None:
         if self._document.is_dirty:
@@ -270,7 +288,9 @@ class Wiring(QObject):
     # ── the window ───────────────────────────────────────────────────────────────────────────────
 
     def _open_dropped(self, path: Path) -> None:
-        """A curve set, a diphone script, or else a face."""
+        """Something spoken, a curve set, a diphone script, or else a face."""
+        if self.speech_in.take(path):
+            return
         if path.suffix.lower() == ".py":
             self.exchange.import_script(path)
         elif path.suffix.lower() != ".json":
@@ -290,7 +310,7 @@ class Wiring(QObject):
         )
 
     def _may_close(self) -> bool:
-        if not self._files.may_discard() or not self.mapping.may_close():
+        if not self._files.may_discard() or not self.mapping.may_close() or not self.speech_in.may_close():
             return False
         self._files.autosave.clear()
         return True
@@ -308,6 +328,7 @@ class Wiring(QObject):
         w.voice_bar.set_speed(state.number("speed", 1.0))
         self._preview.player.set_speed(state.number("speed", 1.0))
         self.sentence.set_voice(state.text("voice"))
+        self.speech_in.restore()
 
     def remember(self) -> None:
         """Keep this time's layout."""
@@ -325,6 +346,8 @@ class Wiring(QObject):
         state.put("loop", player.looping)
         state.put("speed", player.speed)
         state.put("voice", self.sentence.voice)
+        self.speech_in.close()
         self.weak.close()
         self.carrier.close()
         self.time_spent.close()
+        self.other_method.close()

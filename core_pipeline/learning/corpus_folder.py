@@ -20,18 +20,20 @@ from ..errors import UserError
 from ..faces.retarget import Preset
 from ..files import weights_read
 from ..files.atomic import reason
+from ..files.labels.read import read as read_labels
 from ..methods.method import Progress, no_progress
 from ..schedule import Schedule
+from ..speech.labels import utterance_of
 from . import capture_csv, gltf_animation
 from .corpus import Clip, Corpus
 from .cross_map import clip_of
-from .labels import schedule_of
 
 #: Recording, transcript → schedule; None where nothing can align.
 Aligner = Callable[[Path, str], Schedule]
 
 MAX_FILES = 20_000
 _SOUNDS = (".wav", ".flac", ".ogg", ".mp3", ".m4a")
+_LABELS = (".textgrid", ".phn", ".mlf", ".rec", ".phones")
 _SCHEDULE = ".schedule.json"
 _MESHES = (".glb", ".gltf")
 #: Live Link Face's extra files beside a take.
@@ -71,7 +73,7 @@ class Reader:
         return Corpus.of(clips, self.curve_set.phonemes, self.curve_set.phoneme_map, notes)
 
     def _clip(self, animation: Path, files: Sequence[Path]) -> Clip:
-        schedule = self._schedule(animation, files)
+        schedule, notes = self._schedule(animation, files)
         if animation.suffix.lower() in _MESHES:
             clip = clip_of(animation.name, gltf_animation.load(animation), schedule, self._poses, self.presets)
         elif animation.suffix.lower() == ".csv" and capture_csv.is_capture(capture_csv.header_of(animation)):
@@ -79,26 +81,26 @@ class Reader:
         else:
             clip = Clip.of(animation.name, schedule, weights_read.load(animation))
             clip = with_poses(clip, self._poses)
-        return trimmed(clip)
+        return trimmed(replace(clip, notes=(*clip.notes, *notes)))
 
     @property
     def _poses(self) -> tuple[str, ...]:
         return self.curve_set.poses
 
-    def _schedule(self, animation: Path, files: Sequence[Path]) -> Schedule:
+    def _schedule(self, animation: Path, files: Sequence[Path]) -> tuple[Schedule, tuple[str, ...]]:
         """The labels whose name is the animation's, or the longest beginning of it."""
-        labels = _beside(
-            animation, files, lambda f: f.suffix.lower() == ".textgrid" or f.name.lower().endswith(_SCHEDULE)
-        )
+        labels = _beside(animation, files, _are_labels)
         if labels is not None:
-            return schedule_of(labels)
+            known = {*self.curve_set.phonemes, *self.curve_set.phoneme_map}
+            named = utterance_of(read_labels(labels), known=known)
+            return named.utterance.schedule, named.utterance.notes
         sound = _beside(animation, files, lambda f: f.suffix.lower() in _SOUNDS)
         text = _beside(animation, files, lambda f: f.suffix.lower() in (".txt", ".lab"))
         if sound is None or text is None:
             raise UserError(f"it has no labels; put {animation.stem}.TextGrid, or a recording and its text, beside it.")
         if self.align is None:
             raise UserError(f"{sound.name} cannot be aligned here; put {animation.stem}.TextGrid beside it.")
-        return self.align(sound, text.read_text("utf-8-sig", "replace"))
+        return self.align(sound, text.read_text("utf-8-sig", "replace")), ()
 
 
 def _animations(folder: Path) -> tuple[list[Path], list[Path]]:
@@ -122,6 +124,10 @@ def _animations(folder: Path) -> tuple[list[Path], list[Path]]:
     if not found:
         raise UserError(f"{folder} holds no animation: .csv, .json, .glb or .gltf, each with its labels beside it.")
     return found, files
+
+
+def _are_labels(path: Path) -> bool:
+    return path.suffix.lower() in _LABELS or path.name.lower().endswith(_SCHEDULE)
 
 
 def _beside(animation: Path, files: Iterable[Path], fits: Callable[[Path], bool]) -> Path | None:

@@ -213,3 +213,41 @@ def test_a_rigs_own_names_become_a_pose_set(editor: Editor, qtbot: QtBot, tmp_pa
     face = editor.preview.face
     assert face is not None
     assert face.mix("beak open") == {"beak open": 1.0}
+
+
+def test_every_change_of_a_mapping_is_one_undo_step_and_no_change_of_the_curves(
+    editor: Editor, qtbot: QtBot, rig: Path
+) -> None:
+    rigs.as_glb(rigs.head((*ARKIT, "open", "W", "PBM"), rings=12), rig)
+    teach(editor, qtbot, rig)
+    panel, stack, document = editor.window.mapping_panel, editor.document.undo_stack, editor.document
+    pick(editor, "open")
+    slide(editor, "jawOpen", 0.2)
+    slide(editor, "jawOpen", 0.4)
+    assert stack.count() == 2  # a slide is one step, however far
+    assert not document.is_dirty
+    assert not editor.window.isWindowModified()
+    panel.preset.setCurrentIndex(panel.preset.findData("facefx"))
+    panel.preset.activated.emit(panel.preset.currentIndex())
+    assert stack.count() == 3
+    assert panel.mix.mix() == {"open": 1.0}
+    stack.undo()
+    assert panel.mix.mix() == {"jawOpen": pytest.approx(0.6, abs=0.01)}
+    assert jaw(editor) == pytest.approx(0.6, abs=0.01)
+    stack.undo()
+    assert panel.mix.mix() == {"jawOpen": pytest.approx(0.3, abs=0.01)}
+    editor.wiring.bigram.open(("f", "ah"))
+    editor.window.canvas.select_all()
+    editor.window.canvas.nudge(0.0, 0.05)
+    assert document.is_dirty
+    stack.undo()
+    assert not document.is_dirty
+
+    open_rig(editor, qtbot, resources.face_folder())
+    stack.undo()  # of a face that is not shown
+    assert editor.wiring.mapping.may_close()  # nothing is left to save
+    open_rig(editor, qtbot, rig)
+    assert panel.mix.mix() == {"jawOpen": 0.9}
+    stack.redo()
+    assert panel.mix.mix() == {"jawOpen": pytest.approx(0.3, abs=0.01)}
+    assert panel.save.isEnabled()

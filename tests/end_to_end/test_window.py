@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QApplication, QDockWidget
 from pytestqt.qtbot import QtBot
 
 from app.editor import Editor
+from core_pipeline.curve_set import CurveSet
 
 CTRL, ALT = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.AltModifier
 
@@ -209,8 +210,11 @@ def test_tabs_hold_several_bigrams_of_one_document(editor: Editor, qtbot: QtBot)
     press(Qt.Key.Key_W, CTRL)
     assert tabs.pairs == [("l", "ow")]
     press(Qt.Key.Key_T, CTRL)
-    editor.document.new(editor.document.curve_set)
-    assert len(tabs.pairs) == 1
+    assert tabs.pairs == [("l", "ow"), ("ow", "l")]
+    editor.document.new(CurveSet(phonemes=("l", "ow", "x")))
+    assert tabs.pairs == [("l", "ow"), ("ow", "l")]
+    editor.document.new(CurveSet(phonemes=("f", "ah")))
+    assert tabs.pairs == [("f", "ah")]
 
 
 def test_a_b_beside_b_a(editor: Editor, qtbot: QtBot) -> None:

@@ -123,9 +123,10 @@ class CurveItem(pg.GraphicsObject):
         control = self.controller
         painter.setPen(QPen(_GHOST, 1))
         for pose, curve in self.ghost.items():
-            if not control.curves:  # a suggestion: nothing else tells which pose is which
-                painter.setPen(QPen(theme.mix(self._colour(pose), theme.BACKGROUND, 0.75), 1, Qt.PenStyle.DashLine))
             if pose in control.visible and curve is not control.curves.get(pose):
+                if not control.curves:  # a suggestion: nothing else tells which pose is which
+                    colour = theme.mix(self._colour(pose), theme.BACKGROUND, 0.75)
+                    painter.setPen(QPen(colour, 1, Qt.PenStyle.DashLine))
                 painter.drawPolyline(polygon(spline_points(curve, control.spline, control.view)))
 
     def _colour(self, pose: str) -> QColor:

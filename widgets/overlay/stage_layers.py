@@ -51,6 +51,8 @@ class RowPlace:
         return np.clip(self.axis.px(t), -4000.0, self.axis.x1 + 4000.0), self.base - self.tall * v
 
 
+#: Another method's curve.
+METHOD = theme.mix(theme.MUTED, theme.BRIGHT, 0.6)
 #: The final curve before the last edit.
 _GHOST = StageStyle("Before", theme.MUTED, 1.0, ())
 
@@ -193,6 +195,14 @@ def draw_other(painter: QPainter, place: RowPlace, lines: PoseLines, style: Stag
     pen.setDashPattern([5, 4])
     painter.setPen(pen)
     _draw_thin(painter, place, [lines.stage["magenta"]])
+
+
+def draw_method(painter: QPainter, place: RowPlace, line: Line) -> None:
+    """What another method makes of the sentence: grey, dashed, under the stages' own colours."""
+    pen = QPen(METHOD, 1.4)
+    pen.setDashPattern([4, 3])
+    painter.setPen(pen)
+    _draw_thin(painter, place, [line])
 
 
 def draw_origin(painter: QPainter, place: RowPlace, curve: Line, style: StageStyle) -> None:

@@ -48,10 +48,10 @@ class StageOverlay(StageKeyboard):
     # Where is the mouse?
 
     def _zone(self, at: QPoint) -> str:
-        """ "row", "name", or one of the black rows "time", "phone", "start"."""
+        """ "row", "name", or one of the black rows "time", "phone", "start", "word"."""
         if at.y() < self.rows_height:
             return "name" if at.x() < self.axis.x0 - 2 else "row"
-        return ("time", "phone", "start")[min((at.y() - self.rows_height) // ROW, self.footer_rows - 1)]
+        return ("time", "phone", "start", "word")[min((at.y() - self.rows_height) // ROW, self.footer_rows - 1)]
 
     def _row_at(self, at: QPoint) -> Row | None:
         return next((row for row in self.rows if row.top <= at.y() < row.bottom), None)
@@ -147,7 +147,7 @@ class StageOverlay(StageKeyboard):
             self.pose_activated.emit(row.pose)
         elif zone == "row" and row is not None:
             self._open(row.pose, self.axis.time(at.x()))
-        elif zone in {"phone", "start"} and self._stages is not None:
+        elif zone in {"phone", "start", "word"} and self._stages is not None:
             phone = phone_at(self._stages, self.axis.time(at.x()))
             self._scrub_to(float(self._stages.schedule.times[phone]))
 

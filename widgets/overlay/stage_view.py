@@ -15,13 +15,14 @@ from PySide6.QtWidgets import QWidget
 
 from core_pipeline.phonemes import Pair
 from core_pipeline.pipeline import Stages
+from core_pipeline.weights import Weights
 
 from .. import theme
 from . import stage_backdrop as backdrop
-from .stage_footer import ROW, Footer
-from .stage_layers import LAYERS, RowPlace, draw_ghost, draw_origin, draw_other
-from .stage_lines import Line, PoseLines, pose_lines
-from .stage_marks import Mark, draw_marks
+from .stage_footer import ROW, Footer, Span
+from .stage_layers import LAYERS, RowPlace, draw_ghost, draw_method, draw_origin, draw_other
+from .stage_lines import Line, PoseLines, pose_lines, weights_lines
+from .stage_marks import HALF, Mark, draw_marks
 from .stage_picking import Reading, curve_of
 from .stage_rows import MODES, Row, lay_out
 from .time_axis import TimeAxis
@@ -41,8 +42,10 @@ class StageView(QWidget):
         self._lines: dict[str, PoseLines] = {}
         self._ghost: dict[str, PoseLines] = {}
         self._other: dict[str, PoseLines] = {}
+        self._method: dict[str, Line] = {}
         self._marks: tuple[Mark, ...] = ()
         self._sources: tuple[str, ...] = ()
+        self._words: tuple[Span, ...] = ()
         self._active = ""
         self._index: int | None = None
         self._pair: Pair | None = None
@@ -84,6 +87,13 @@ class StageView(QWidget):
         if sources != self._sources:
             self._sources = sources
             self._redraw()
+
+    def set_words(self, words: Sequence[Span]) -> None:
+        """The words of the utterance: text, start and end in seconds; without any there is no row for them."""
+        if tuple(words) != self._words:
+            self._words = tuple(words)
+            self._redraw()
+            self._lay_out()
 
     def set_active_pose(self, pose: str) -> None:
         """The pose whose row is tall."""
@@ -129,6 +139,13 @@ class StageView(QWidget):
         """What another curve set makes of the sentence, its final curves dashed; None for none."""
         if stages is not None or self._other:
             self._other = {} if stages is None else pose_lines(stages)
+            self._row_pixmaps.clear()
+            self._redraw()
+
+    def set_method(self, weights: Weights | None) -> None:
+        """What another method makes of the sentence, grey and dashed; None for none."""
+        if weights is not None or self._method:
+            self._method = {} if weights is None else weights_lines(weights)
             self._row_pixmaps.clear()
             self._redraw()
 
@@ -201,8 +218,8 @@ class StageView(QWidget):
 
     @property
     def footer_rows(self) -> int:
-        """Time, Phoneme and Start; fewer where the overlay is very low."""
-        return 3 if self.height() >= 130 else 2
+        """Time, Phoneme and Start, and Word where there are any; fewer where the overlay is very low."""
+        return (3 + bool(self._words)) if self.height() >= 130 else 2
 
     # Layout
 
@@ -215,7 +232,7 @@ class StageView(QWidget):
     def _lay_out(self) -> None:
         peaks = {pose: lines.peak for pose, lines in self._lines.items()}
         rows = lay_out(tuple(self._lines), self.active_pose, peaks, self._mode, self.rows_height)
-        gutter = self._names.width([*self._lines, *(title + "  +9" for title in self._footer.titles(3))])
+        gutter = self._names.width([*self._lines, *(title + "  +9" for title in self._footer.titles(4))])
         axis = self._axis.with_pixels(float(min(gutter, self.width() // 3)), float(self.width() - _RIGHT))
         if (rows, axis) != (self._rows, self._axis):
             self._rows, self._axis = rows, axis
@@ -264,7 +281,9 @@ class StageView(QWidget):
             for row in self._rows:
                 if event.rect().intersects(QRect(0, row.top, self.width(), row.height)):
                     painter.drawPixmap(0, row.top, self.row_pixmap(row))
-            draw_marks(painter, self._marks, self._axis, self.row_of)
+            first, last = (self._axis.left + (x - self._axis.x0) / self._axis.scale for x in _around(event.rect()))
+            marks = [mark for mark in self._marks if first <= mark.time <= last]
+            draw_marks(painter, marks, self._axis, self.row_of)
             self._paint_reading(painter, self._stages)
             backdrop.draw_playhead(painter, self._axis, self._playhead, self.height())
         if self.hasFocus():
@@ -317,7 +336,7 @@ class StageView(QWidget):
         box = QRect(0, tall, self.width(), self.height() - tall)
         lit = frozenset() if span is None or self._index is None else frozenset((self._index, self._index + 1))
         sources = self._sources if len(self._sources) == len(stages.schedule) else ()
-        self._footer.draw(painter, box, axis, stages, sources, lit, self._loop)
+        self._footer.draw(painter, box, axis, stages, sources, lit, self._loop, self._words)
         if hidden := len(self._lines) - len(self._rows) if self._mode != "one" else 0:
             painter.setFont(self._names.small)
             painter.setPen(theme.WEAK)
@@ -352,8 +371,15 @@ class StageView(QWidget):
                 layer.draw(painter, place, lines, self._styles[layer.name])
         if (other := self._other.get(row.pose)) is not None:
             draw_other(painter, place, other, self._styles["magenta"])
+        if (method := self._method.get(row.pose)) is not None:
+            draw_method(painter, place, method)
         painter.end()
         return pixmap
+
+
+def _around(rect: QRect) -> tuple[int, int]:
+    """The columns from which a mark reaches into `rect`."""
+    return rect.left() - HALF - 1, rect.right() + HALF + 1
 
 
 def _same_ground(one: Stages | None, other: Stages | None) -> bool:

@@ -27,13 +27,15 @@ _DIMMED = 0.35  # share of the fill left on cells that a search did not find
 
 
 class BigramGrid(QTableView):
-    """The square. Arrow keys and clicks move the current cell and open it at once: `picked(pair)`.
+    """The square. Arrow keys and clicks move the current cell and open it at once: `picked(pair)`; Enter
+    asks to work on it: `entered()`.
 
     Cells fill the width, each from 12 pixels on; they are as tall as wide where there is the height, else lower,
     down to 9. In less the view scrolls.
     """
 
     picked = Signal(tuple)
+    entered = Signal()
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -110,13 +112,15 @@ class BigramGrid(QTableView):
         self._lay_out()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Arrows, Home, End and pages move and open; Enter opens again."""
+        """Arrows, Home, End and pages move and open; Enter opens again and goes to the curves."""
         before = QPersistentModelIndex(self.currentIndex())
         super().keyPressEvent(event)
         now = self.currentIndex()
         entered = event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter)
         if now.isValid() and (entered or before != now):
             self.picked.emit(self.pairs.pair_at(now))
+            if entered:
+                self.entered.emit()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """A left click opens."""

@@ -35,10 +35,12 @@ class BigramPicker(QWidget):
     """The left dock's upper part.
 
     picked(pair)         the user wants this bigram opened: click, arrow key, Enter, or its name in the search
+    entered()            and wants to work on it: Enter in the square, or in a search that found only one
     search_wanted(text)  the search is no phones: whoever knows words answers with `set_matches`
     """
 
     picked = Signal(tuple)
+    entered = Signal()
     search_wanted = Signal(str)
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -56,10 +58,11 @@ class BigramPicker(QWidget):
             )
         )
         self.search.textChanged.connect(self._search)
-        self.search.returnPressed.connect(self._step)
+        self.search.returnPressed.connect(self._enter)
         self.search.installEventFilter(self)
         self.grid = BigramGrid()
         self.grid.picked.connect(self.picked)
+        self.grid.entered.connect(self.entered)
         self.legend = BigramLegend()
         self.coverage = CoverageBar()
         self._matches: list[Pair] = []
@@ -228,6 +231,11 @@ class BigramPicker(QWidget):
         else:
             found = self.tr("%1 bigrams · Enter steps through them").replace("%1", str(len(self._matches)))
             self.legend.set_message(found)
+
+    def _enter(self) -> None:
+        self._step()
+        if len(self._matches) == 1:
+            self.entered.emit()
 
     def _step(self) -> None:
         if self._matches:

@@ -38,6 +38,7 @@ class MappingPanel(QWidget):
     pose_shown(pose)        the face should hold this pose alone; "": it need not any more
     pose_picked(pose)       another pose is being looked at
     mix_changed(pose, mix)  shape → amount, at every step of a slide
+    settled()               a slide has ended
     preset_chosen(name)     all poses as a naming convention makes them
     save_wanted(), revert_wanted()
     """
@@ -45,6 +46,7 @@ class MappingPanel(QWidget):
     pose_shown = Signal(str)
     pose_picked = Signal(str)
     mix_changed = Signal(str, object)
+    settled = Signal()
     preset_chosen = Signal(str)
     save_wanted = Signal()
     revert_wanted = Signal()
@@ -168,6 +170,7 @@ class MappingPanel(QWidget):
         self._note = ElidedLabel()
         self.mix = MixTable()
         self.mix.edited.connect(self._edited)
+        self.mix.settled.connect(self.settled)
 
     def _lay_out(self) -> None:
         line = QHBoxLayout()

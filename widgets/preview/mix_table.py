@@ -62,15 +62,21 @@ class _ShapeRow(Row):
 
 
 class MixTable(QWidget):
-    """edited(mix): shape → amount, after every step of a slide, a typed number, a shape added or left out."""
+    """The mix of one pose.
+
+    edited(mix)  shape → amount, after every step of a slide, a typed number, a shape added or left out
+    settled()    what comes next is another change: the slide has ended, or it was no slide
+    """
 
     edited = Signal(object)
+    settled = Signal()
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._shapes: tuple[str, ...] = ()
         self._editable = True
-        self.table = RowTable(_ShapeRow, self.tr("Add a shape"))
+        self._sliding = ""  # the shape that was changed last
+        self.table = RowTable(self._new_row, self.tr("Add a shape"))
         self.table.add.hide()  # the search field adds
         self.table.row_changed.connect(self._changed)
         self.table.remove_wanted.connect(self._remove)
@@ -102,7 +108,16 @@ class MixTable(QWidget):
         """The table as it stands."""
         return {row.shape: row.amount.exact for row in self.table.rows}
 
+    def _new_row(self) -> _ShapeRow:
+        row = _ShapeRow()
+        row.slider.sliderReleased.connect(self.settled)
+        row.amount.editingFinished.connect(self.settled)
+        return row
+
     def _changed(self, shape: str) -> None:
+        if shape != self._sliding:
+            self._sliding = shape
+            self.settled.emit()
         mix = self.mix()
         twin = other_side(shape, tuple(mix)) if self.sides.isChecked() else None
         if twin is not None:
@@ -114,7 +129,9 @@ class MixTable(QWidget):
     def _add(self, shape: str) -> None:
         self.set_mix({**self.mix(), shape: 0.0}, self._shapes)
         self.table.rows[-1].slider.setFocus()
+        self.settled.emit()
         self.edited.emit(self.mix())
+        self.settled.emit()
 
     def _remove(self, at: int) -> None:
         mix = self.mix()
@@ -122,4 +139,6 @@ class MixTable(QWidget):
         self.set_mix(mix, self._shapes)
         if not mix:
             self.add.setFocus()
+        self.settled.emit()
         self.edited.emit(mix)
+        self.settled.emit()

@@ -11,12 +11,10 @@ from core_pipeline.files import schedule_json, weights_files
 from core_pipeline.learning.bigram_curves import learn_bigrams
 from core_pipeline.learning.corpus import Clip, Corpus
 from core_pipeline.learning.corpus_folder import Reader
-from core_pipeline.learning.labels import plain, schedule_of
 from core_pipeline.schedule import Schedule
 from core_pipeline.weights import Weights
 from tests.helpers.captures import live_link
-from tests.helpers.corpora import baked, english, schedules
-from tests.helpers.refusals import told
+from tests.helpers.corpora import baked, english
 
 ROOT = Path(__file__).resolve().parents[3]
 PRESETS = load_presets(ROOT / "assets" / "retarget")
@@ -142,39 +140,3 @@ def test_clips_of_different_poses_are_not_mixed():
     ]
     with pytest.raises(UserError, match=r"a and b have different poses \(jaw, open"):
         Corpus.of(clips)
-
-
-class TestLabels:
-    def test_stress_and_silence(self):
-        assert [plain(x) for x in ("AH0", "iy1", "SIL", "", "sp", "<p:>", "b", "d2")] == [
-            "ah", "iy", "sil", "sil", "sil", "sil", "b", "d",
-        ]  # fmt: skip
-
-    def test_a_text_grid(self, tmp_path):
-        path = tmp_path / "a.TextGrid"
-        for encoding in ("utf-8", "utf-16"):
-            path.write_text(text_grid(schedules()[0]), encoding)
-            read = schedule_of(path)
-            assert read.phones == schedules()[0].phones
-            assert read.times == pytest.approx(schedules()[0].times, abs=1e-6)
-
-    def test_phones_without_length_are_dropped(self, tmp_path):
-        path = tmp_path / "a.TextGrid"
-        text = text_grid(Schedule(["aa", "b", "iy"], [0, 0.1, 0.1005, 0.3]))
-        path.write_text(text.replace("0.1005", "0.1001"))
-        read = schedule_of(path)
-        assert read.phones == ("aa", "iy")
-        assert read.times == pytest.approx([0, 0.1, 0.3])
-
-    @pytest.mark.parametrize("text", ["", "hello", 'File type = "ooTextFile"\n', "xmin = 0\nxmax = what", "\0" * 50])
-    def test_damaged_ones_are_refused(self, tmp_path, text):
-        path = tmp_path / "a.TextGrid"
-        path.write_text(text)
-        with pytest.raises(UserError, match=r"a\.TextGrid"):
-            schedule_of(path)
-
-    def test_cut_ones_never_end_in_a_traceback(self, tmp_path):
-        path, text = tmp_path / "a.TextGrid", text_grid(schedules()[0])
-        for end in range(0, len(text), 97):
-            path.write_text(text[:end])
-            assert "a.TextGrid" in (told(lambda: schedule_of(path)) or "a.TextGrid")
