@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from PySide6.QtGui import QActionGroup, QUndoStack
 from PySide6.QtWidgets import QMainWindow
 
@@ -9,7 +11,7 @@ from widgets import theme
 from widgets.canvas.keymaps import KEYMAPS, NEUTRAL
 
 from .layouts import PRESETS
-from .menus import Registry
+from .menus import Menu, Registry
 
 
 class Actions:
@@ -58,6 +60,12 @@ class Actions:
             (),
             tr("Start an empty set whose poses are the face's own shapes"),
         )
+        self.open_recording = menu.add(
+            "file.open-recording", tr("Open &Recording…"), "Ctrl+R", tr("Say what is said in a wav, flac, ogg or mp3")
+        )
+        self.open_labels = menu.add(
+            "file.open-labels", tr("Open &Label File…"), (), tr("Phones with times: TextGrid, HTK, ESPS, TIMIT")
+        )
         menu.line()
         self.save = menu.add("file.save", tr("&Save"), "Ctrl+S", tr("Save the curve set"))
         self.save_as = menu.add(
@@ -79,6 +87,12 @@ class Actions:
             "Ctrl+Shift+E",
             tr("Write this sentence's weights, frame by frame, as JSON or CSV"),
         )
+        self.save_utterance = menu.add(
+            "file.save-utterance",
+            tr("Save P&hones and Words…"),
+            (),
+            tr("Keep what is said as a TextGrid or JSON, beside the recording"),
+        )
         menu.line()
         self.quit = menu.add("file.quit", tr("&Quit"), "Ctrl+Q", tr("Close Lipstitch"))
 
@@ -93,6 +107,11 @@ class Actions:
         )
         self.redo.setIcon(theme.icon("redo"))
         self.redo.setStatusTip(tr("Make the change again that was taken back"))
+        menu.line()
+        self.phone_set = menu.add(
+            "edit.phones", tr("&Phone Set…"), (), tr("Add, split, rename and remove phonemes; see first what changes")
+        )
+        self.author = menu.add("edit.author", tr("&Author…"), (), tr("The name that your bigrams bear in the file"))
         menu.line()
         keys = menu.submenu(tr("&Keys of the Canvas"))
         self.keymaps: QActionGroup = keys.choice()
@@ -109,6 +128,14 @@ class Actions:
         tr, menu = self._tr, self.registry.menu(self._tr("&View"))
         self.view_menu = menu
         self.characters_menu = menu.submenu(tr("&Character"))
+        self.pick_face = self.characters_menu.add(
+            "character.pick", tr("&Choose…"), "Ctrl+Shift+F", tr("Another face, from their portraits")
+        )
+        self.add_face = self.characters_menu.add(
+            "character.add", tr("&Add Beside…"), "Ctrl+Alt+A", tr("Another face beside, to say the same sentence")
+        )
+        self.characters_menu.line()
+        self._looks(menu)
         self.reset_view = menu.add(
             "view.front", tr("See the Face from the &Front"), "Ctrl+0", tr("Reset the face's camera")
         )
@@ -145,6 +172,39 @@ class Actions:
             "view.previous-part", tr("&Previous Part of the Window"), "Shift+F6", tr("Each dock, canvas, toolbar")
         )
 
+    def _looks(self, menu: Menu) -> None:
+        """How the faces are seen."""
+        tr = self._tr
+        backgrounds = {
+            "studio": tr("&Studio"), "daylight": tr("&Daylight"), "night": tr("&Night"), "grey": tr("Flat &Grey"),
+            "checker": tr("&Checkers"), "green": tr("Gr&een for Keying"),
+        }  # fmt: skip
+        lights = {"left": tr("From the &Left"), "right": tr("From the &Right"), "top": tr("From A&bove")}
+        angles = {
+            "front": tr("&Front"), "left": tr("Three-quarter &Left"), "right": tr("Three-quarter &Right"),
+            "profile": tr("&Profile"), "mouth": tr("&Mouth"),
+        }  # fmt: skip
+        ground = menu.submenu(tr("Back&ground"))
+        self.backgrounds = self._one_of(ground, "background", backgrounds)
+        self.next_background = ground.add("background.next", tr("Ne&xt Background"), "Ctrl+Alt+B")
+        light = menu.submenu(tr("L&ight"))
+        self.lights = self._one_of(light, "light", lights)
+        self.next_light = light.add("light.next", tr("Ne&xt Light"), "Ctrl+Alt+L")
+        self.angles = self._one_of(menu.submenu(tr("Ca&mera")), "camera", angles, numbered=True)
+        self.angles.setExclusionPolicy(QActionGroup.ExclusionPolicy.ExclusiveOptional)  # none, once turned by hand
+        self.turntable = menu.add(
+            "view.turntable", tr("&Turntable"), "Ctrl+T", tr("Let the faces turn by themselves"), checked=False
+        )
+
+    def _one_of(self, menu: Menu, kind: str, titles: Mapping[str, str], *, numbered: bool = False) -> QActionGroup:
+        """A choice of exactly one, the first at the start; `numbered`: Ctrl+1 and so on choose."""
+        group = menu.choice()
+        for number, (name, title) in enumerate(titles.items(), 1):
+            action = menu.add(f"{kind}.{name}", title, f"Ctrl+{number}" if numbered else (), checked=number == 1)
+            action.setData(name)
+            group.addAction(action)
+        return group
+
     def _bigram(self) -> None:
         tr, menu = self._tr, self.registry.menu(self._tr("&Bigram"))
         self.bigram_menu = menu
@@ -153,6 +213,15 @@ class Actions:
             "bigram.play", tr("&Play the Bigram Alone"), "Shift+F5", tr("Play or stop the open bigram")
         )
         menu.line()
+        self.revert = menu.add(
+            "bigram.revert", tr("Re&vert to Base"), (), tr("The open bigram as the set below has it")
+        )
+        self.theirs = menu.add(
+            "bigram.theirs",
+            tr("S&wap with the Other Side's Curves"),
+            (),
+            tr("Where a merge left this bigram undecided; editing or approving decides"),
+        )
         self.swapped = menu.add(
             "bigram.swapped", tr("Open the &Swapped Pair"), "Ctrl+Shift+B", tr("From f-ah to ah-f and back")
         )
@@ -187,6 +256,7 @@ class Actions:
         tr, menu = self._tr, self.registry.menu(self._tr("&Sentence"))
         self.sentence_menu = menu
         self.sentence = menu.add("sentence.type", tr("&Type a Sentence"), "Ctrl+L", tr("Go to the sentence"))
+        self.live = menu.add("sentence.live", tr("&Microphone…"), (), tr("Let the face say what is spoken now"))
         menu.line()
         self.pin_sentence = menu.add(
             "sentence.pin", tr("&Pin This Sentence"), "Ctrl+Shift+P", tr("Keep it in the list of test sentences")

@@ -134,6 +134,7 @@ def _in(module: str, function: str) -> Command:
 COMMANDS: Mapping[str, Command] = {
     "edit": _edit,
     "bake": _in("command_line.bake", "bake"),
+    "batch": _in("command_line.batch", "batch"),
     "check": _in("command_line.check", "check"),
     "convert": _in("command_line.curve_sets", "convert"),
     "diff": _in("command_line.curve_sets", "diff"),
@@ -143,7 +144,10 @@ COMMANDS: Mapping[str, Command] = {
     "render": _in("command_line.clips", "render"),
     "face": _in("rigs", "tell_face"),
     "contact-sheet": _in("command_line.contact_sheet", "contact_sheet"),
+    "film-strip": _in("command_line.film_strip", "film_strip"),
     "screenshot": _screenshot,
+    "fit": _in("command_line.fit", "fit"),
+    "study": _in("command_line.study", "study"),
     "build-faces": _in("command_line.build", "build_faces"),
     "build-curves": _in("command_line.build", "build_curves"),
     "build-frequencies": _in("command_line.stats", "build_frequencies"),

@@ -15,6 +15,7 @@ from PySide6.QtGui import QUndoCommand
 from core_pipeline.curve_set import Bigram, CurveSet
 from core_pipeline.phonemes import Pair
 from core_pipeline.settings import Settings
+from core_pipeline.speech.utterance import Utterance
 
 
 class EditBigram(QUndoCommand):
@@ -44,8 +45,32 @@ class EditBigram(QUndoCommand):
         self._apply(self.pair, self.before)
 
 
+class EditBigrams(QUndoCommand):
+    """Many bigrams before and after; None means there was none."""
+
+    def __init__(
+        self,
+        apply: Callable[[Mapping[Pair, Bigram | None]], None],
+        before: Mapping[Pair, Bigram | None],
+        after: Mapping[Pair, Bigram | None],
+        label: str,
+    ) -> None:
+        super().__init__(label)
+        self._apply = apply
+        self.before = before
+        self.after = after
+
+    def redo(self) -> None:
+        """Put the new bigrams in place."""
+        self._apply(self.after)
+
+    def undo(self) -> None:
+        """Put the old bigrams back."""
+        self._apply(self.before)
+
+
 class ChangeSet(QUndoCommand):
-    """The whole set before and after: a restored backup, a merge, another phoneme set, many bigrams at once."""
+    """The whole set before and after: a restored backup, a merge, another phoneme set."""
 
     def __init__(self, apply: Callable[[CurveSet], None], before: CurveSet, after: CurveSet, label: str) -> None:
         super().__init__(label)
@@ -60,6 +85,26 @@ class ChangeSet(QUndoCommand):
     def undo(self) -> None:
         """Put the old set back."""
         self._apply(self.before)
+
+
+class EditUtterance(QUndoCommand):
+    """What is said, before and after. No part of the curve set: see Document.push_aside."""
+
+    of_set = False
+
+    def __init__(self, put: Callable[[Utterance], None], before: Utterance, after: Utterance, label: str) -> None:
+        super().__init__(label)
+        self._put = put
+        self.before = before
+        self.after = after
+
+    def redo(self) -> None:
+        """Say the new one."""
+        self._put(self.after)
+
+    def undo(self) -> None:
+        """Say the old one again."""
+        self._put(self.before)
 
 
 class ChangeSettings(QUndoCommand):

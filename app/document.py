@@ -20,7 +20,7 @@ from core_pipeline.files.curve_set_merge import decided
 from core_pipeline.phonemes import Pair
 from core_pipeline.settings import Settings
 
-from .commands import ChangeSet, ChangeSettings, EditBigram
+from .commands import ChangeSet, ChangeSettings, EditBigram, EditBigrams
 
 NUDGE = "Nudge keys"
 
@@ -32,6 +32,7 @@ class Document(QObject):
     """A curve set being edited.
 
     bigram_changed(pair)  one bigram has other curves
+    bigrams_changed(pairs)  many bigrams have other curves or another status
     settings_changed()    the pipeline's settings differ
     replaced()            another set was opened, or the whole set differs
     great_change(what)    many bigrams are about to change at once: time for a backup of `curve_set`
@@ -43,6 +44,7 @@ class Document(QObject):
     """
 
     bigram_changed = Signal(object)
+    bigrams_changed = Signal(object)
     settings_changed = Signal()
     replaced = Signal()
     great_change = Signal(str)
@@ -88,6 +90,23 @@ class Document(QObject):
         self._last = EditBigram(self._put_bigram, pair, before, after, label)
         self.undo_stack.push(self._last)
 
+    def put_bigram(self, pair: Pair, bigram: Bigram, label: str) -> None:
+        """One bigram as a whole, its status too, in one step; UserError when the document cannot be edited."""
+        self._check_editable()
+        if not self.curve_set.has_pair(pair):
+            raise UserError(f"{pair[0]}-{pair[1]} is not a bigram of this set: choose another.")
+        if bigram.status == "approved":
+            bigram = decided(bigram)
+        self.undo_stack.push(EditBigram(self._put_bigram, pair, self.curve_set.bigrams.get(pair), bigram, label))
+
+    def put_bigrams(self, bigrams: Mapping[Pair, Bigram], label: str) -> None:
+        """Many bigrams in one step; UserError when the document cannot be edited."""
+        self._check_editable()
+        if bigrams:
+            self.great_change.emit(label)
+            before = {pair: self.curve_set.own.get(pair) for pair in bigrams}
+            self.undo_stack.push(EditBigrams(self._put_bigrams, before, dict(bigrams), label))
+
     def change_settings(self, settings: Settings, label: str) -> None:
         """Use other settings; UserError when the document cannot be edited."""
         self._check_editable()
@@ -131,6 +150,10 @@ class Document(QObject):
     def _put_bigram(self, pair: Pair, bigram: Bigram | None) -> None:
         self.curve_set = self.curve_set.with_bigram(pair, bigram)
         self.bigram_changed.emit(pair)
+
+    def _put_bigrams(self, changes: Mapping[Pair, Bigram | None]) -> None:
+        self.curve_set = self.curve_set.with_bigrams(changes)
+        self.bigrams_changed.emit(tuple(changes))
 
     def _put_settings(self, settings: Settings | None) -> None:
         self.curve_set = replace(self.curve_set, settings=settings)

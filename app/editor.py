@@ -20,6 +20,7 @@ from core_pipeline.speech.speaker import Speaker
 from widgets import theme
 
 from . import resources
+from .collector import Collector
 from .document import Document
 from .faces import Faces
 from .file_actions import FileActions
@@ -41,6 +42,7 @@ class Editor(QObject):
     def __init__(self, curve_set: CurveSet, state: ViewState) -> None:
         super().__init__()
         self.state = state
+        self._collector = Collector(self)
         self.document = Document(curve_set, self)
         self.session = Session(curve_set, self)
         self.window = MainWindow(self.document)
@@ -61,6 +63,7 @@ class Editor(QObject):
                 state=state,
                 speech=self.speech,
                 search=self._search,
+                speaker=self.speaker,
             ),
             self,
         )
@@ -78,6 +81,7 @@ class Editor(QObject):
         self.speech.stop()
         self._search.stop()
         self.preview.stop()
+        self._collector.stop()
         self.state.write()
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Sequence
+import time
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Qt, Signal, Slot
@@ -15,16 +16,21 @@ from core_pipeline.faces.open_face import Opened, open_face
 
 from . import resources
 
+#: Seconds between two reports of how far the reading is.
+QUIET = 0.25
+
 
 class Faces(QObject):
     """Opens faces; only the latest wish counts, and a newer one ends the reading of an older.
 
     opened(Opened)  the face is ready
     failed(str)     why it is not; the face before stays
+    reading(str)    how far it is, when that takes a while: "head.glb: 40 % read"
     """
 
     opened = Signal(object)
     failed = Signal(str)
+    reading = Signal(str)
     _done = Signal(int, object)
 
     def __init__(self, parent: QObject | None = None) -> None:
@@ -53,10 +59,24 @@ class Faces(QObject):
         result: Opened | Exception
         try:
             presets = load_presets(resources.retarget_presets())
-            result = open_face(path, presets, poses, rig_cache.user_cache(), lambda: number != self._number)
+            result = open_face(
+                path, presets, poses, rig_cache.user_cache(), lambda: number != self._number, self._told(number, path)
+            )
         except Exception as error:  # noqa: BLE001 - told or raised on the thread of the interface
             result = error
         self._done.emit(number, result)
+
+    def _told(self, number: int, path: Path) -> Callable[[float], None]:
+        """Says how far the reading is, a few times a second and not in the first half of one."""
+        said = time.monotonic() + QUIET
+
+        def told(share: float) -> None:
+            nonlocal said
+            if time.monotonic() - said >= QUIET and number == self._number:
+                said = time.monotonic()
+                self.reading.emit(self.tr("{0}: {1} % read").format(path.name, round(100 * share)))
+
+        return told
 
     @Slot(int, object)
     def _deliver(self, number: int, result: Opened | Exception) -> None:

@@ -38,6 +38,7 @@ class FileActions(QObject):
         self._state = state
         self.autosave = Autosave(document, state.folder / "recovery", self)
         self.keeper = Keeper(document, state.folder / "backups", self)
+        document.author = state.text("author")[:200]
 
     @property
     def folder(self) -> str:
@@ -272,6 +273,15 @@ class FileActions(QObject):
         )
         if chosen:
             self.attempt(lambda: self.keeper.restore(backups[rows.index(row)]))
+
+    def ask_author(self) -> None:
+        """Whose name edited bigrams bear from now on; none for nobody's."""
+        name, chosen = QInputDialog.getText(
+            self.window, self.tr("Author"), self.tr("Bigrams you edit bear this name:"), text=self.document.author
+        )
+        if chosen:
+            self.document.author = name.strip()[:200]
+            self._state.put("author", self.document.author)
 
     # ── close ────────────────────────────────────────────────────────────────────────────────────
 

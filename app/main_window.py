@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import QByteArray, Qt, Signal
+from PySide6.QtCore import QByteArray, QEvent, Qt, Signal
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeyEvent, QPalette, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QDockWidget,
@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from core_pipeline.speech.espeak import FASTEST, SLOWEST
 from widgets.canvas.bigram_transport import BigramTransport
 from widgets.canvas.canvas_header import CanvasHeader
 from widgets.canvas.curve_canvas import CurveCanvas
@@ -26,12 +27,17 @@ from widgets.canvas.curve_panel import CurvePanel
 from widgets.canvas.pose_list import PoseList
 from widgets.overlay.stage_panel import StagePanel
 from widgets.picker.bigram_picker import BigramPicker
-from widgets.picker.weak_list import WeakList
+from widgets.picker.weak_panel import WeakPanel
+from widgets.preview.face_picker import FacePicker
 from widgets.preview.face_view import FaceView
 from widgets.preview.mapping_panel import MappingPanel
+from widgets.preview.preview_panel import PreviewPanel
 from widgets.preview.weights_bars import WeightsBars
 from widgets.sentence_bar import SentenceBar
 from widgets.settings.settings_panel import SettingsPanel
+from widgets.speech.live_panel import LivePanel
+from widgets.speech.recording_panel import RecordingPanel
+from widgets.speech.voice_panel import VoicePanel
 from widgets.transport import Transport
 from widgets.voice_bar import VoiceBar
 from widgets.window.beside_panel import BesidePanel
@@ -52,10 +58,12 @@ class MainWindow(QMainWindow):
 
     play_wanted()  Space, where nothing that has the focus wants it
     dropped(Path)  a file or folder was dropped on the window
+    let_go()       a key was released, or another window came to the front
     """
 
     play_wanted = Signal()
     dropped = Signal(Path)
+    let_go = Signal()
 
     def __init__(self, document: Document) -> None:
         super().__init__()
@@ -70,7 +78,8 @@ class MainWindow(QMainWindow):
         self.may_close: Callable[[], bool] = lambda: True
 
         self.picker = BigramPicker()
-        self.weak_list = WeakList()
+        self.weak_panel = WeakPanel()
+        self.weak_list = self.weak_panel.list
         self.header = CanvasHeader()
         self.bigram_transport = BigramTransport()
         self.pose_list = PoseList()
@@ -79,6 +88,8 @@ class MainWindow(QMainWindow):
         self.beside = BesidePanel()
         self.bigram_tabs = BigramTabs()
         self.face_view = FaceView()
+        self.preview_panel = PreviewPanel(self.face_view)
+        self.face_picker = FacePicker(self)
         self.weights = WeightsBars()
         self.settings_panel = SettingsPanel()
         self.mapping_panel = MappingPanel()
@@ -87,6 +98,9 @@ class MainWindow(QMainWindow):
         self.sentence_bar = SentenceBar()
         self.voice_bar = VoiceBar()
         self.sentence_list = SentenceList()
+        self.recording_panel = RecordingPanel()
+        self.voice_panel = VoicePanel(SLOWEST, FASTEST)
+        self.live_panel = LivePanel()
         self.keymap_question = KeymapQuestion()
 
         self.actions_ = Actions(self, document.undo_stack)
@@ -123,6 +137,18 @@ class MainWindow(QMainWindow):
             self.play_wanted.emit()
         else:
             super().keyPressEvent(event)
+
+    def keyReleaseEvent(self, event: QKeyEvent) -> None:
+        """Qt's hook: what lasts while a key is held ends."""
+        super().keyReleaseEvent(event)
+        if not event.isAutoRepeat():
+            self.let_go.emit()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Qt's hook: a key let go in another window is never heard of here."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.ActivationChange and not self.isActiveWindow():
+            self.let_go.emit()
 
     def showEvent(self, event: QShowEvent) -> None:
         """Give the docks their first sizes once the window has its own."""
@@ -209,14 +235,18 @@ class MainWindow(QMainWindow):
     def _docks(self) -> None:
         left, right, below = _Area.LeftDockWidgetArea, _Area.RightDockWidgetArea, _Area.BottomDockWidgetArea
         self.bigrams_dock = self.add_dock("bigrams", self.tr("Bigrams"), self.picker, left)
-        self.weak_dock = self.add_dock("weak", self.tr("Weak bigrams"), self.weak_list, left)
+        self.weak_dock = self.add_dock("weak", self.tr("Weak bigrams"), self.weak_panel, left)
         self.sentences_dock = self.add_dock("sentences", self.tr("Sentences"), self.sentence_list, left)
-        self.preview_dock = self.add_dock("preview", self.tr("Preview"), self.face_view, right)
+        self.preview_dock = self.add_dock("preview", self.tr("Preview"), self.preview_panel, right)
         self.weights_dock = self.add_dock("weights", self.tr("Pose weights"), self.weights, right)
         self.settings_dock = self.add_dock("settings", self.tr("Pipeline settings"), self.settings_panel, right)
         self.stages_dock = self.add_dock("stages", self.tr("Pipeline stages"), self.stage_panel, below)
         self.mapping_dock = self.add_dock("mapping", self.tr("Face mapping"), self.mapping_panel, right)
-        self.mapping_dock.hide()
+        self.recording_dock = self.add_dock("recording", self.tr("Recording"), self.recording_panel, left)
+        self.voice_dock = self.add_dock("voice", self.tr("Voice"), self.voice_panel, left)
+        self.live_dock = self.add_dock("live", self.tr("Microphone"), self.live_panel, left)
+        for dock in (self.mapping_dock, self.recording_dock, self.voice_dock, self.live_dock):
+            dock.hide()
 
     def add_dock(self, name: str, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
         """A dock with a switch in View → Docks; `name` is what the layout is remembered by."""

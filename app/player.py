@@ -20,6 +20,8 @@ SLOWEST, FASTEST = 0.25, 1.0
 #: Seconds; a shorter loop would only buzz.
 SHORTEST_LOOP = 0.05
 _TICK = 16  # milliseconds
+#: How long a moment is heard while it is scrubbed over, in milliseconds.
+GRAIN = 70
 
 
 class Player(QObject):
@@ -54,6 +56,11 @@ class Player(QObject):
         self._timer.setTimerType(Qt.TimerType.PreciseTimer)
         self._timer.setInterval(_TICK)
         self._timer.timeout.connect(self.update)
+        self._grain = QTimer(self)
+        self._grain.setSingleShot(True)
+        self._grain.setInterval(GRAIN)
+        self._grain.timeout.connect(self._grain_over)
+        self._grain_at = 0.0
 
     @property
     def time(self) -> float:
@@ -88,6 +95,9 @@ class Player(QObject):
     def set_utterance(self, duration: float, audio: Audio | None) -> None:
         """Another utterance, of `duration` seconds; stops, and goes to its start."""
         self.pause()
+        if self._grain.isActive():
+            self._grain.stop()
+            self._silence()
         self._duration, self._audio, self._range = max(0.0, duration), audio, None
         self._move_to(0.0)
 
@@ -119,6 +129,31 @@ class Player(QObject):
         self._move_to(min(max(time, 0.0), self._duration))
         if self._playing:
             self._go()
+
+    def scrub(self, time: float) -> None:
+        """Go to a time by hand: while nothing plays, each moment passed is heard shortly."""
+        self.seek(time)
+        if not self._playing and not self._grain.isActive():
+            self._sound_here()
+
+    def _sound_here(self) -> None:
+        if self._output is not None and self._audio is not None:
+            self._grain_at = self._time
+            end = min(self._time + 2e-3 * GRAIN, self._duration)  # should nobody come to stop it
+            self._output.play(self._audio, self._time, end)
+            self._grain.start()
+
+    def _grain_over(self) -> None:
+        if self._playing:
+            return
+        if self._time != self._grain_at:  # the hand has gone on meanwhile
+            self._sound_here()
+        else:
+            self._silence()
+
+    def _silence(self) -> None:
+        if self._output is not None:
+            self._output.stop()
 
     def set_speed(self, speed: float) -> None:
         """0.25…1, clamped."""
@@ -179,6 +214,5 @@ class Player(QObject):
     def _halt(self) -> None:
         self._timer.stop()
         self._playing = False
-        if self._output is not None:
-            self._output.stop()
+        self._silence()
         self.playing_changed.emit(False)

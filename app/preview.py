@@ -195,10 +195,10 @@ class Preview(QObject):
         if playing:
             self.bigram_player.play()
 
-    def scrub(self, seconds: float) -> None:
-        """Show the sentence at another moment."""
+    def scrub(self, seconds: float, *, aloud: bool = False) -> None:
+        """Show the sentence at another moment; `aloud`: what sounds there is heard, too."""
         self.show_sentence()
-        self.player.seek(seconds)
+        self.player.scrub(seconds) if aloud else self.player.seek(seconds)
 
     def set_lively(self, on: bool) -> None:
         """Blink and move the brows a little, or keep still."""

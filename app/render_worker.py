@@ -16,6 +16,7 @@ from core_pipeline.faces.render import Figure, Renderer
 from core_pipeline.faces.render_context import Platform
 
 from .gl_platform import make_platform
+from .pace import Pace
 
 #: A picture that has not changed for this long is drawn again in full quality.
 SETTLE_SECONDS = 0.12
@@ -33,8 +34,9 @@ class _Wish:
 class RenderWorker(QThread):
     """Draws wishes in its own thread. All methods may be called from any thread; construct in the GUI thread.
 
-    While wishes keep coming they are drawn fast, and one that comes before the last was begun replaces
-    it. When none came for 120 ms, the last is drawn again with smooth edges and exact normals.
+    While wishes keep coming they are drawn fast, in a smaller picture where that takes too long, and one that
+    comes before the last was begun replaces it. When none came for 120 ms, the last is drawn again in its full
+    size with smooth edges and exact normals.
     """
 
     frame = Signal(QImage, float, float)
@@ -89,11 +91,13 @@ class RenderWorker(QThread):
     def run(self) -> None:
         """What the thread does; call `start`."""
         renderer: Renderer | None = None
+        pace = Pace()
         while (wish := self._next()) is not None:
             began = time.perf_counter()
             try:
                 renderer = renderer or Renderer(self._platform)
-                pixels = renderer.draw(wish.figures, wish.size, wish.full_quality, wish.look)
+                size = wish.size if wish.full_quality else pace.size(wish.size, _drawn(wish))
+                pixels = renderer.draw(wish.figures, size, wish.full_quality, wish.look)
             except UserError as error:
                 renderer = None
                 self._fail(wish)
@@ -101,7 +105,10 @@ class RenderWorker(QThread):
                 continue
             height, width = pixels.shape[:2]
             image = QImage(pixels.data, width, height, 4 * width, QImage.Format.Format_RGB32).copy()
-            self.frame.emit(image, wish.time, 1e3 * (time.perf_counter() - began))
+            took = time.perf_counter() - began
+            if not wish.full_quality:
+                pace.took(took)
+            self.frame.emit(image, wish.time, 1e3 * took)
         if renderer is not None:
             renderer.close()
 
@@ -129,3 +136,8 @@ class RenderWorker(QThread):
             if self._wish is None:
                 self._wish = wish  # what `retry` draws
             self._last = None
+
+
+def _drawn(wish: _Wish) -> tuple[object, ...]:
+    """What makes a picture quick or slow to draw."""
+    return (wish.size, *(figure.face for figure in wish.figures))

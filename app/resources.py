@@ -54,3 +54,20 @@ def characters() -> list[Path]:
 def face_folder(name: str = "toon") -> Path:
     """One of our own characters."""
     return assets() / "faces" / name
+
+
+def phoneme_maps() -> list[Path]:
+    """Our phoneme maps; the default comes first."""
+    paths = (assets() / "phoneme_maps").glob("*.json")
+    return sorted(paths, key=lambda path: (path.stem != "table-1", path.stem))
+
+
+def phoneme_map(name: str) -> Path:
+    """One of our maps by its name, or the file of that name. UserError when there is neither."""
+    for path in phoneme_maps():
+        if path.stem == name.lower():
+            return path
+    if Path(name).suffix.lower() == ".json":
+        return Path(name)
+    names = ", ".join(path.stem for path in phoneme_maps())
+    raise UserError(f"There is no phoneme map {name!r}: choose one of {names}, or name a .json file.")

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtCore import QObject, Qt, Signal
 
 from core_pipeline import pipeline
 from core_pipeline.curve_set import Bigram, CurveSet
@@ -26,19 +26,20 @@ class Session(QObject):
     """
 
     stages_changed = Signal(object)
+    _wanted = Signal()
 
     def __init__(self, curve_set: CurveSet, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._curve_set = curve_set
         self._shown = curve_set  # the same, or with the gesture that is under way
+        self._other: CurveSet | None = None
         self._preview: Pair | None = None
         self.utterance: Utterance | None = None
         self.stages: Stages | None = None
         self.pipeline_ms = 0.0
-        self._turn = QTimer(self)
-        self._turn.setSingleShot(True)
-        self._turn.setInterval(0)
-        self._turn.timeout.connect(self.recompute)
+        self._waiting = False
+        # Not a timer: what is posted runs before windows are painted, so that one painting shows everything.
+        self._wanted.connect(self._turn, Qt.ConnectionType.QueuedConnection)
 
     @property
     def curve_set(self) -> CurveSet:
@@ -58,8 +59,19 @@ class Session(QObject):
     def set_curve_set(self, curve_set: CurveSet) -> None:
         """Use another set, or the same with an edit; a gesture's preview ends."""
         self._curve_set = self._shown = curve_set
-        self._preview = None
-        self._turn.start()
+        self._preview = self._other = None
+        self._want()
+
+    @property
+    def shows_other(self) -> bool:
+        """Whether another set is shown in place of the document's."""
+        return self._other is not None
+
+    def show_other(self, curve_set: CurveSet | None) -> None:
+        """Let another set speak, of the same poses, until None brings the document's back."""
+        self._other = curve_set
+        self._preview, self._shown = None, curve_set if curve_set is not None else self._curve_set
+        self._want()
 
     def set_preview(self, pair: Pair, curves: Mapping[str, Curve | None] | None) -> None:
         """Show a gesture while it lasts, without touching the document; None ends it.
@@ -74,16 +86,25 @@ class Session(QObject):
             for pose, curve in curves.items():
                 bigram = bigram.with_curve(pose, curve)
             self._preview, self._shown = pair, self._curve_set.with_bigram(pair, bigram)
-        self._turn.start()
+        self._want()
 
     def set_utterance(self, utterance: Utterance | None) -> None:
         """Say something else."""
         self.utterance = utterance
-        self._turn.start()
+        self._want()
+
+    def _want(self) -> None:
+        if not self._waiting:
+            self._waiting = True
+            self._wanted.emit()
+
+    def _turn(self) -> None:
+        if self._waiting:
+            self.recompute()
 
     def recompute(self) -> None:
         """Run the pipeline now; otherwise it runs by itself at the next turn of the event loop."""
-        self._turn.stop()
+        self._waiting = False
         if self.utterance is None:
             self.stages = None
         else:

@@ -7,10 +7,11 @@ import threading
 from PySide6.QtCore import QObject, Qt, Signal, Slot
 
 from core_pipeline.errors import UserError
+from core_pipeline.speech.espeak import PITCH
 from core_pipeline.speech.speaker import Speaker
 from core_pipeline.speech.utterance import Utterance
 
-_Wish = tuple[int, str, str, int]
+_Wish = tuple[int, str, str, int, int]
 
 
 class SpeechWorker(QObject):
@@ -31,11 +32,11 @@ class SpeechWorker(QObject):
         self._thread = threading.Thread(target=self._work, name="speech", daemon=True)
         self._thread.start()
 
-    def request(self, text: str, voice: str = "en-us", rate: int = 175) -> None:
+    def request(self, text: str, voice: str = "en-us", rate: int = 175, pitch: int = PITCH) -> None:
         """Speak this; answers to earlier requests will not come any more."""
         with self._changed:
             self._number += 1
-            self._wish = (self._number, text, voice, rate)
+            self._wish = (self._number, text, voice, rate, pitch)
             self._changed.notify()
 
     def stop(self) -> None:
@@ -50,10 +51,10 @@ class SpeechWorker(QObject):
     def _work(self) -> None:
         self._speaker.warm_up()
         while wish := self._next():
-            number, text, voice, rate = wish
+            number, text, voice, rate, pitch = wish
             result: Utterance | Exception
             try:
-                result = self._speaker.speak(text, voice, rate)
+                result = self._speaker.speak(text, voice, rate, pitch)
             except Exception as error:  # noqa: BLE001 - told or raised on the thread of the interface
                 result = error
             if not self._stopped:

@@ -93,14 +93,24 @@ class CurveSet:
 
     def with_bigram(self, pair: Pair, bigram: Bigram | None) -> CurveSet:
         """With another bigram at `pair` in this layer; None removes this layer's, so that the base's is back."""
-        if bigram is None and self.below is not None:
-            bigram = self.below.bigrams.get(pair)
+        return self.with_bigrams({pair: bigram})
+
+    def with_bigrams(self, changes: Mapping[Pair, Bigram | None]) -> CurveSet:
+        """With other bigrams in this layer; None removes this layer's, so that the base's is back."""
         bigrams = dict(self.bigrams)
-        if bigram is None:
-            bigrams.pop(pair, None)
-        else:
-            bigrams[pair] = bigram
-        return replace(self, bigrams=bigrams)
+        for pair, bigram in changes.items():
+            plays = self.below.bigrams.get(pair) if bigram is None and self.below is not None else bigram
+            if plays is None:
+                bigrams.pop(pair, None)
+            else:
+                bigrams[pair] = plays
+        changed, packed = replace(self, bigrams=bigrams), self.__dict__.get("packed")
+        if packed is not None and len(changes) == 1:
+            (pair,) = changes
+            quick = packed.with_bigram(pair, bigrams[pair]) if pair in self.bigrams and pair in bigrams else None
+            if quick is not None:
+                changed.__dict__["packed"] = quick  # what cached_property would make, without packing all anew
+        return changed
 
     def with_settings(self, settings: Settings) -> CurveSet:
         """The same curves with other settings."""

@@ -162,6 +162,26 @@ class PackedSet:
         packed = ClosedKeys(*np.concatenate(parts, axis=1))
         return cls(poses, packed, packed.ramp != 0, start.T.copy(), count.T.copy(), row_of, number)
 
+    def with_bigram(self, pair: Pair, bigram: HasCurves) -> PackedSet | None:
+        """With other curves for a bigram that has a row here, many times quicker than `of`; None when it has none."""
+        first, second = (self.number.get(phone) for phone in pair)
+        row = self.start.shape[1] - 1 if first is None or second is None else int(self.row_of[first, second])
+        if row == self.start.shape[1] - 1:
+            return None
+        sizes, block = _bigram_block(bigram, self.poses)
+        begin, before = int(self.start[0, row]), int(self.count[:, row].sum())
+        keys = ClosedKeys(
+            *(
+                np.concatenate((old[:begin], new, old[begin + before :]))
+                for old, new in zip(self.keys, block, strict=True)
+            )
+        )
+        start, count = self.start.copy(), self.count.copy()
+        count[:, row] = sizes
+        start[:, row] = begin + np.cumsum(sizes) - sizes
+        start[:, row + 1 :] += int(sizes.sum()) - before
+        return PackedSet(self.poses, keys, keys.ramp != 0, start, count, self.row_of, self.number)
+
     def numbers(self, phones: tuple[str, ...]) -> Ints:
         """Phone numbers (n,); an unknown phone gets the number that has no bigrams."""
         unknown = len(self.number)

@@ -1,4 +1,4 @@
-"""Which phones look alike on a face, how often each is heard, and so which bigrams are similar."""
+"""Which phones look alike on a face, in what orders to show them, and which bigrams are similar."""
 
 from __future__ import annotations
 
@@ -24,12 +24,6 @@ CLASSES: tuple[tuple[str, ...], ...] = (
     ("bmp",),
 )
 
-#: From the commonest to the rarest: 5,380 phones of plain prose, this project's README, as espeak-ng speaks it.
-BY_FREQUENCY = (
-    "d", "ah", "z", "ih", "bmp", "eh", "r", "f", "kg", "w", "l", "th", "ow", "sh", "ay", "er", "ao", "aa", "h", "aw",
-    "oy",
-)  # fmt: skip
-
 _CLASS: Mapping[str, int] = MappingProxyType({phone: i for i, group in enumerate(CLASSES) for phone in group})
 
 
@@ -44,9 +38,13 @@ def by_class(phones: Sequence[str]) -> tuple[str, ...]:
     return _sorted(phones, order)
 
 
-def by_frequency(phones: Sequence[str]) -> tuple[str, ...]:
-    """The same phones, the commonest first; those never counted last."""
-    return _sorted(phones, BY_FREQUENCY)
+def by_frequency(phones: Sequence[str], shares: Mapping[Pair, float]) -> tuple[str, ...]:
+    """The same phones, the commonest first, counted by how often their pairs are spoken; those never heard last."""
+    heard: dict[str, float] = {}
+    for pair, share in shares.items():
+        for phone in pair:
+            heard[phone] = heard.get(phone, 0.0) + share
+    return _sorted(phones, sorted(heard, key=lambda phone: -heard[phone]))
 
 
 def _sorted(phones: Sequence[str], order: Sequence[str]) -> tuple[str, ...]:

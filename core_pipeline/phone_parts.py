@@ -11,20 +11,16 @@ exceptions (section 3.1.2 leaves the drawing to them). assets/curves/english.tom
 from __future__ import annotations
 
 import sys
-import tomllib
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Any, Literal, NamedTuple
-
-import msgspec
+from typing import NamedTuple
 
 from .curve_set import Bigram, CurveSet
 from .curves import Curve
 from .errors import UserError
 from .files.curve_set_json import save
-from .files.settings_json import decode_settings, unknown_fields
+from .phone_recipe import Key, Moment, Recipe, Strengths, Targets, read_recipe, recipe_settings
 from .phonemes import SILENCE, TABLE_1, Pair
-from .settings import Settings
 
 #: What a bigram made here has as its source.
 SOURCE = "phone parts"
@@ -32,155 +28,12 @@ SOURCE = "phone parts"
 #: Of the keys' times and values.
 DECIMALS = 3
 
-Weight = Annotated[float, msgspec.Meta(ge=0, le=1)]
-Time = Annotated[float, msgspec.Meta(ge=0, le=1)]
-#: When a target peaks. "meeting" is where the two phones meet: targets that give way to the neighbour go there.
-Moment = Literal["early", "mid", "late", "meeting"]
-#: Pose → strength, or moment → strength for a phone that moves.
-Row = dict[str, Weight | dict[Moment, Weight]]
-Key = tuple[float, float]
-Stroke = tuple[tuple[Time, Weight], ...]
-#: Moment → strength of one pose.
-Strengths = Mapping[Moment, float]
-Targets = Mapping[str, Strengths]
-
-
-class Moments(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
-    """The time of each moment, in the bigram's normalised time."""
-
-    early: Time
-    mid: Time
-    late: Time
-    meeting: Time = 0.5
-
-    def peaks(self, strengths: Strengths) -> list[Key]:
-        """(time, strength) of every target, in order of time."""
-        at = {"early": self.early, "mid": self.mid, "late": self.late, "meeting": self.meeting}
-        return sorted((at[moment], strength) for moment, strength in strengths.items())
-
-
-class Times(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
-    """When targets peak, for the first phone of a pair and the second."""
-
-    first: Moments
-    second: Moments
-    first_before_silence: Moments
-    second_after_silence: Moments
-
 
 class Part(NamedTuple):
     """One phone's keys for one pose in a pair: `held` at its peaks, `slope` towards the other phone, falling to 0."""
 
     held: list[Key]
     slope: list[Key]
-
-
-class Reach(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
-    """How long a slope takes from a peak to 0."""
-
-    usual: Time
-    silence: Time
-
-
-class Closures(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
-    """Poses whose lips touch have a plateau: (time, fraction of the strength) as first phone, somewhere 1.
-
-    The stroke depends on the other phone: silence, one of the `long` phones, or any other.
-    """
-
-    poses: tuple[str, ...]
-    long: tuple[str, ...]
-    first: Stroke
-    first_before_long: Stroke
-    first_before_silence: Stroke
-
-    def beside(self, other: str) -> Stroke:
-        """The stroke before `other`; after it, the mirror image."""
-        if other == SILENCE:
-            return self.first_before_silence
-        return self.first_before_long if other in self.long else self.first
-
-
-class Recipe(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
-    """One row per phone and the rules that turn rows into curves.
-
-    phones        phone → its row
-    beside        phone → pose → the most it allows its neighbour in their common pair
-    borrow        phone → the share it takes of the other phone's row
-    settings      what the set is made for, as in a curve set's file; without, the preset "Paper"
-    phoneme_map   language phone → one of `phonemes`; without, table 1
-    """
-
-    name: str
-    language: str
-    phonemes: tuple[str, ...]
-    poses: tuple[str, ...]
-    times: Times
-    reach: Reach
-    closures: Closures
-    phones: dict[str, Row]
-    beside: dict[str, dict[str, Weight]] = {}
-    borrow: dict[str, Weight] = {}
-    settings: dict[str, Any] | None = None
-    phoneme_map: dict[str, str] | None = None
-
-
-def read_recipe(path: Path) -> Recipe:
-    """The recipe in a .toml file; UserError names file and place of what is wrong."""
-    try:
-        recipe = msgspec.convert(tomllib.loads(path.read_text("utf-8")), Recipe)
-    except OSError as error:
-        raise UserError(f"{path} cannot be read ({error.strerror}): check the path.") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, msgspec.ValidationError) as error:
-        raise UserError(f"{path} is not a recipe ({error}): correct that place.") from error
-    _check_phones(recipe, path)
-    _check_settings(recipe, path)
-    return recipe
-
-
-def _check_phones(recipe: Recipe, path: Path) -> None:
-    """UserError unless every phoneme has a row and all names are known."""
-    for phone in recipe.phonemes:
-        if phone not in recipe.phones:
-            raise UserError(f"{path} has no row for {phone}: add [phones.{phone}].")
-    sections: dict[str, Iterable[str]] = {
-        "phones": recipe.phones,
-        "beside": recipe.beside,
-        "borrow": recipe.borrow,
-        "closures": recipe.closures.long,
-    }
-    for section, phones in sections.items():
-        for phone in phones:
-            if phone not in recipe.phonemes:
-                raise UserError(f"{path}: [{section}] has {phone!r}, which is not among the phonemes: correct it.")
-    for stroke in (recipe.closures.beside(phone) for phone in (*recipe.phonemes, SILENCE)):
-        if not any(fraction == 1 for _, fraction in stroke):
-            raise UserError(f"{path}: a stroke in [closures] never reaches 1: give it a key at 1.")
-    named: list[tuple[str, Iterable[str]]] = [("closures", recipe.closures.poses)]
-    for phone, poses in [*named, *recipe.phones.items(), *recipe.beside.items()]:
-        for pose in poses:
-            if pose not in recipe.poses:
-                raise UserError(f"{path}: {phone} has the pose {pose!r}; choose among {', '.join(recipe.poses)}.")
-    for name, phone in (recipe.phoneme_map or {}).items():
-        if phone not in recipe.phonemes:
-            raise UserError(f"{path}: [phoneme_map] takes {name} to {phone!r}, which is no phoneme: correct it.")
-
-
-def _check_settings(recipe: Recipe, path: Path) -> None:
-    """UserError unless the settings are possible and about the recipe's own poses."""
-    settings = _settings(recipe, str(path))
-    if settings is None:
-        return
-    if odd := sorted(unknown_fields(recipe.settings or {})):
-        raise UserError(f"{path}: [settings] has {odd[0]!r}, which is no setting: correct it.")
-    pairs = [pose for constraint in settings.constraints for pose in (constraint.a, constraint.b)]
-    for pose in (*settings.windows, *settings.priorities, *pairs):
-        if pose not in recipe.poses:
-            raise UserError(f"{path}: [settings] names the pose {pose!r}; name poses of the set, in every part.")
-
-
-def _settings(recipe: Recipe, place: str) -> Settings | None:
-    return None if recipe.settings is None else decode_settings(recipe.settings, place)
 
 
 def bigram_of(recipe: Recipe, pair: Pair, status: str = "draft") -> Bigram:
@@ -196,19 +49,22 @@ def bigram_of(recipe: Recipe, pair: Pair, status: str = "draft") -> Bigram:
 
 
 def curve_set_of(recipe: Recipe, status: str = "draft") -> CurveSet:
-    """All pairs of the recipe's phonemes, and each phoneme after and before silence."""
-    phones = recipe.phonemes
-    pairs = [(a, b) for a in phones for b in phones]
-    pairs += [(SILENCE, phone) for phone in phones] + [(phone, SILENCE) for phone in phones]
-    return CurveSet(
+    """All pairs of the recipe's phonemes, and each phoneme after and before silence; its base's come from below."""
+    phones, own = recipe.phonemes, recipe.own_phonemes
+    pairs = [(a, b) for a in phones for b in phones if a in own or b in own]
+    pairs += [(SILENCE, phone) for phone in own] + [(phone, SILENCE) for phone in own]
+    curve_set = CurveSet(
         name=recipe.name,
         language=recipe.language,
         phonemes=phones,
         poses=recipe.poses,
         bigrams={pair: bigram_of(recipe, pair, status) for pair in pairs},
         phoneme_map=TABLE_1 if recipe.phoneme_map is None else recipe.phoneme_map,
-        settings=_settings(recipe, recipe.name),
+        settings=recipe_settings(recipe, recipe.name),
     )
+    if recipe.below is None or recipe.base is None:
+        return curve_set
+    return curve_set.on_base(recipe.base, curve_set_of(recipe.below, status))
 
 
 def _rows(recipe: Recipe, pair: Pair) -> tuple[Targets, Targets]:

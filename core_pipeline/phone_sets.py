@@ -22,6 +22,7 @@ class PhoneSetChange:
 
     added, gone   phonemes
     copied, blank, returned   new bigrams: with the curves of others, without curves, and back from aside
+    moved   bigrams that go by another name
     aside         bigrams that are kept, but no longer played
     spoken        language phones that play another phoneme than before: (phone, before or "", after or "")
     """
@@ -31,6 +32,7 @@ class PhoneSetChange:
     copied: tuple[Pair, ...]
     blank: tuple[Pair, ...]
     returned: tuple[Pair, ...]
+    moved: tuple[Pair, ...]
     aside: tuple[Pair, ...]
     spoken: tuple[tuple[str, str, str], ...]
 
@@ -99,6 +101,8 @@ def change_of(before: CurveSet, after: CurveSet) -> PhoneSetChange:
     new = [pair for phone in fresh for pair in _pairs_of(phone, after.phonemes) if pair not in before.bigrams]
     new = list(dict.fromkeys(new))
     back = {pair for pair in new if pair in before.aside and pair in after.bigrams}
+    gone = {id(bigram) for pair, bigram in before.bigrams.items() if pair not in after.bigrams}
+    moved = {pair for pair in new if id(after.bigrams.get(pair)) in gone}
     spoken = [
         (phone, before.phoneme_map.get(phone, ""), after.phoneme_map.get(phone, ""))
         for phone in dict.fromkeys((*before.phoneme_map, *after.phoneme_map))
@@ -106,9 +110,10 @@ def change_of(before: CurveSet, after: CurveSet) -> PhoneSetChange:
     return PhoneSetChange(
         added=tuple(fresh),
         gone=tuple(p for p in before.phonemes if p not in after.phonemes),
-        copied=tuple(pair for pair in new if pair in after.bigrams and pair not in back),
+        copied=tuple(pair for pair in new if pair in after.bigrams and pair not in back and pair not in moved),
         blank=tuple(pair for pair in new if pair not in after.bigrams and SILENCE not in pair),
         returned=tuple(pair for pair in new if pair in back),
+        moved=tuple(pair for pair in new if pair in moved),
         aside=tuple(pair for pair in after.aside if pair not in before.aside),
         spoken=tuple(row for row in spoken if row[1] != row[2]),
     )

@@ -77,7 +77,7 @@ class Suggestions:
         drawn = {pair: b for pair, b in curve_set.bigrams.items() if is_drawn(b) and set(pair) <= number.keys()}
         pairs = np.array([(number[a], number[b]) for a, b in drawn], np.intp).reshape(-1, 2)
         width = len(curve_set.poses) * SAMPLES
-        curves = np.array([_sampled(b, curve_set.poses) for b in drawn.values()]).reshape(len(drawn), width)
+        curves = np.array([sampled(b, curve_set.poses) for b in drawn.values()]).reshape(len(drawn), width)
         by_parts = prior is not None and len(drawn) < FEW
         if by_parts and prior is not None:
             mean = _prior_mean(phones, curve_set, prior)
@@ -180,7 +180,7 @@ def fill(curve_set: CurveSet, prior: CurveSet | None = None) -> dict[Pair, Bigra
 
 
 @lru_cache(maxsize=4096)
-def _sampled(bigram: Bigram, poses: tuple[str, ...]) -> Floats:
+def sampled(bigram: Bigram, poses: tuple[str, ...]) -> Floats:
     """(poses·SAMPLES,) the control polygon's heights; cached because an edit changes one bigram of 441."""
     rows = np.zeros((len(poses), SAMPLES))
     for row, pose in zip(rows, poses, strict=True):
@@ -198,7 +198,7 @@ def _prior_mean(phones: tuple[str, ...], curve_set: CurveSet, prior: CurveSet) -
     nothing = Bigram()
     for i, a in enumerate(names):
         for j, b in enumerate(names):
-            mean[i, j] = _sampled(prior.bigrams.get((a, b), nothing), curve_set.poses)
+            mean[i, j] = sampled(prior.bigrams.get((a, b), nothing), curve_set.poses)
     return mean
 
 

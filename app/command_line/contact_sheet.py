@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,18 +11,17 @@ from PIL import Image, ImageDraw, ImageFont
 
 from core_pipeline.errors import UserError
 from core_pipeline.faces.face import Face
+from core_pipeline.faces.looks import ANGLES, Look
+from core_pipeline.faces.view import View
 from core_pipeline.files import curve_set_json
 from core_pipeline.files.json_text import shown
-from core_pipeline.poses import MEANING, TONGUE
+from core_pipeline.poses import MEANING, TONGUE_OPEN, of_tongue
 
 from ..rigs import curves_of, face_path, is_ours, open_rig
 from .frames import FaceFrames, save_png
+from .look_options import look_of
 from .progress import Progress
 
-#: Where the three-quarter view looks from, in degrees beside the face's own camera.
-THREE_QUARTER = 38.0
-#: How far the mouth opens for a pose of the tongue, which closed lips would hide.
-TONGUE_OPEN = 0.3
 COLUMNS = 3
 #: More than any screen or printer shows; beyond it memory runs out.
 MAX_PIXELS = 100_000_000
@@ -40,13 +38,19 @@ def contact_sheet(options: argparse.Namespace) -> int:
     out: Path = options.out
     if out.suffix.lower() != ".png":
         raise UserError(f"Cannot tell the format of {out}: name the picture .png.")
+    if options.face == "all":
+        from .line_up import line_up
+
+        return line_up(options)
+    if options.portraits:
+        raise UserError("--portraits shows our characters together: write contact-sheet all --portraits.")
     path = face_path(options.face)
     poses = curve_set_json.read(options.curves or curves_of(path)).curve_set.poses
     face = open_rig(path, poses).face
     shown_poses = poses_of(face, poses, idle=is_ours(path))
     if 2 * len(shown_poses) * options.size[0] * options.size[1] > MAX_PIXELS:
         raise UserError(f"{len(shown_poses)} poses that large are no picture any more: choose a smaller --size.")
-    save_png(sheet(face, shown_poses, options.size), out)
+    save_png(sheet(face, shown_poses, options.size, look_of(options)), out)
     print(f"{len(shown_poses)} poses of {shown(face.title, 200)} in {out}")
     return 0
 
@@ -59,7 +63,7 @@ def poses_of(face: Face, poses: Sequence[str], *, idle: bool) -> list[Pose]:
         mix, note = face.mix(pose), MEANING.get(pose, "")
         if not mix:
             note = "not available on this face"
-        elif jaw is not None and (pose in TONGUE or "tongue" in pose.casefold()):
+        elif jaw is not None and of_tongue(pose):
             opened = {shape: TONGUE_OPEN * amount for shape, amount in face.mix(jaw).items()}
             mix = {shape: opened.get(shape, 0) + mix.get(shape, 0) for shape in (*opened, *mix)}
             note = f"{note}; " * bool(note) + f"with {jaw} {TONGUE_OPEN:g}"
@@ -70,7 +74,7 @@ def poses_of(face: Face, poses: Sequence[str], *, idle: bool) -> list[Pose]:
     return found
 
 
-def sheet(face: Face, poses: Sequence[Pose], size: tuple[int, int]) -> Image.Image:
+def sheet(face: Face, poses: Sequence[Pose], size: tuple[int, int], look: Look | None = None) -> Image.Image:
     """The page: pairs of pictures of `size` (width, height) pixels, three pairs in a row."""
     width, height = size
     pair, label = 2 * width + _SEAM, 2 * _LABEL
@@ -85,7 +89,7 @@ def sheet(face: Face, poses: Sequence[Pose], size: tuple[int, int]) -> Image.Ima
     draw = ImageDraw.Draw(page)
     draw.text((_MARGIN, _MARGIN), shown(face.title, 80), _INK, ImageFont.load_default(_TITLE))
     with Progress(len(poses), "poses") as progress:
-        for number, (pose, pictures) in enumerate(zip(poses, _pictures(face, poses, size), strict=True)):
+        for number, (pose, pictures) in enumerate(zip(poses, _pictures(face, poses, size, look), strict=True)):
             x = _MARGIN + number % columns * (pair + _GAP)
             y = head + number // columns * (height + label + _GAP)
             for side, picture in enumerate(pictures):
@@ -95,9 +99,11 @@ def sheet(face: Face, poses: Sequence[Pose], size: tuple[int, int]) -> Image.Ima
     return page
 
 
-def _pictures(face: Face, poses: Sequence[Pose], size: tuple[int, int]) -> Iterator[tuple[Image.Image, Image.Image]]:
-    frames = FaceFrames(face, face.shapes, size)
-    side = replace(frames.view, yaw=frames.view.yaw + THREE_QUARTER)
+def _pictures(
+    face: Face, poses: Sequence[Pose], size: tuple[int, int], look: Look | None
+) -> Iterator[tuple[Image.Image, Image.Image]]:
+    frames = FaceFrames(face, face.shapes, size, look)
+    side = View.on(face, ANGLES["left"])
     for _, _, mix in poses:
         amounts = np.array([mix.get(shape, 0.0) for shape in face.shapes])
         yield frames.picture(amounts), frames.picture(amounts, side)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from core_pipeline.compare import differences
 from core_pipeline.curve_set import CurveSet
 from core_pipeline.errors import UserError
 from core_pipeline.files import curve_set_json
 from core_pipeline.files.atomic import read_bytes, write_atomically
+from core_pipeline.files.curve_set_diff import differences
 from core_pipeline.files.curve_set_merge import merge as merged
 from core_pipeline.files.json_text import shown
 from core_pipeline.files.smartbody_read import import_set

@@ -9,7 +9,7 @@ from typing import NoReturn
 from core_pipeline.errors import UserError
 from core_pipeline.settings import PRESETS, SPLINES
 
-from . import curve_sets_parser, curve_work_parser
+from . import curve_sets_parser, curve_work_parser, look_options, methods_parser, speech_options
 
 _FACE = "toon, ada, man, woman, crab; or a .glb, .gltf or .vrm; or a folder of .obj poses"
 
@@ -47,7 +47,7 @@ def make_parser() -> Parser:
 
     bake = command(
         "bake",
-        "turn a sentence or a schedule into weights per frame",
+        "turn a sentence, a recording, a label file or a schedule into weights per frame",
         'lipstitch bake "Fat cats often find fish" --out weights.json',
     )
     _speech_options(bake, text_optional=True)
@@ -58,11 +58,16 @@ def make_parser() -> Parser:
     bake.add_argument("--sound", type=Path, metavar="FILE", help="the sound of the sentence, .wav")
     bake.add_argument("--spline", choices=SPLINES, help="final spline (default: the curve set's own)")
     bake.add_argument("--fps", type=float, default=60, metavar="N", help="frames per second, 1 to 1000 (default 60)")
+    bake.add_argument("--method", type=Path, metavar="FILE", help="a learned model, .npz, in place of the curves")
     bake.add_argument("--no-snap", action="store_true", help="do not put each peak on its nearest frame")
+    speech_options.add_to_bake(bake)
+    speech_options.add(command)
 
     curve_work_parser.add(command)
 
     curve_sets_parser.add(command)
+
+    methods_parser.add(command)
 
     render = command(
         "render",
@@ -74,9 +79,28 @@ def make_parser() -> Parser:
         "--out", type=Path, required=True, metavar="PATH", help="a clip, .mp4, or a folder for PNG frames and sound"
     )
     render.add_argument("--fps", type=float, default=30, metavar="N", help="frames per second, 1 to 240 (default 30)")
-    render.add_argument("--size", type=_size, default=(512, 512), metavar="WxH", help="pixels (default 512x512)")
-    render.add_argument("--face", metavar="FACE", help=_FACE)
+    render.add_argument(
+        "--size", type=_size, metavar="WxH", help="pixels (default 512x512; of several faces 384x512 each)"
+    )
+    render.add_argument(
+        "--face", metavar="FACE", action="append", help=f"{_FACE}; up to three times, for faces side by side"
+    )
+    look_options.add_look(render)
+    look_options.add_camera(render)
+    render.add_argument("--method", type=Path, metavar="FILE", help="a learned model, .npz, in place of the curves")
     render.add_argument("--still", action="store_true", help="keep eyes and brows still: no blinking")
+
+    strip = command(
+        "film-strip",
+        "draw a sentence as a row of pictures, one for each phone",
+        'lipstitch film-strip "Five big moths" --face ada --out strip.png',
+    )
+    _speech_options(strip, usual="the face's own, or our English set")
+    strip.add_argument("--out", type=Path, required=True, metavar="FILE", help="the picture, .png")
+    strip.add_argument("--face", metavar="FACE", help=_FACE)
+    strip.add_argument(
+        "--size", type=_size, default=(128, 128), metavar="WxH", help="pixels of each picture (default 128x128)"
+    )
 
     face = command("face", "say what a face is made of and which poses it can make", "lipstitch face head.glb")
     face.add_argument("face", metavar="FACE", help=_FACE)
@@ -90,12 +114,14 @@ def make_parser() -> Parser:
         "draw every pose of a face, in front and three-quarter view, with its name",
         "lipstitch contact-sheet ada --out sheet.png",
     )
-    sheet.add_argument("face", metavar="FACE", help=_FACE)
+    sheet.add_argument("face", metavar="FACE", help=f"{_FACE}; or all: our characters together")
     sheet.add_argument("--out", type=Path, required=True, metavar="FILE", help="the picture, .png")
     sheet.add_argument("--curves", type=Path, metavar="FILE", help="the curve set whose poses are shown")
     sheet.add_argument(
         "--size", type=_size, default=(240, 240), metavar="WxH", help="pixels of each face (default 240x240)"
     )
+    sheet.add_argument("--portraits", action="store_true", help="with all: one picture of each, speaking")
+    look_options.add_look(sheet)
 
     shot = command(
         "screenshot",

@@ -6,8 +6,7 @@ import os
 import tempfile
 from pathlib import Path
 
-from PySide6.QtCore import QBuffer, QByteArray, QEventLoop, QIODevice, QTimer
-from PySide6.QtGui import QImage, QImageWriter
+from PySide6.QtCore import QEventLoop, QTimer
 from PySide6.QtWidgets import QApplication
 
 from core_pipeline.curve_set import CurveSet
@@ -17,6 +16,7 @@ from core_pipeline.speech.speaker import speak
 from widgets import theme
 
 from ..editor import Editor
+from ..png import png
 from ..settings import ViewState
 
 #: Drawing the face once takes a fraction of this, even in software.
@@ -48,7 +48,7 @@ def screenshot(text: str, curve_set: CurveSet, out: Path, size: tuple[int, int],
         picture = editor.window.grab().toImage()
         editor.close()
         editor.window.deleteLater()
-    write_atomically(out, _png(picture))
+    write_atomically(out, png(picture))
     return 0
 
 
@@ -64,10 +64,3 @@ def _wait_for_face(editor: Editor) -> None:
     editor.faces.failed.connect(rest.start)
     QTimer.singleShot(PATIENCE_MS, loop, loop.quit)
     loop.exec()
-
-
-def _png(picture: QImage) -> bytes:
-    buffer = QBuffer()
-    buffer.open(QIODevice.OpenModeFlag.WriteOnly)
-    QImageWriter(buffer, QByteArray(b"png")).write(picture)
-    return bytes(buffer.data().data())

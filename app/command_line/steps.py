@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from core_pipeline.curve_set import CurveSet
 from core_pipeline.errors import UserError
@@ -13,11 +14,16 @@ from core_pipeline.files.atomic import reason
 from core_pipeline.phonemes import pair_name
 from core_pipeline.pipeline import Stages
 from core_pipeline.settings import PRESETS
+from core_pipeline.speech.intake import Intake, Source
 from core_pipeline.speech.speaker import speak
 from core_pipeline.speech.utterance import Utterance
 from core_pipeline.speech.wav import write_wav
 
+if TYPE_CHECKING:
+    from core_pipeline.methods.method import Method
+
 from .. import resources
+from .progress import Progress
 
 
 def tell(line: str) -> None:
@@ -37,9 +43,30 @@ def load_curves(options: argparse.Namespace, usual: Path | None = None) -> Curve
     return curve_set.with_settings(PRESETS[options.preset]) if options.preset else curve_set
 
 
+def load_model(path: Path) -> Method:
+    """A learned model, .npz; UserError when it is none."""
+    from core_pipeline.files import model_npz
+
+    return model_npz.load(path)
+
+
 def say(text: str, voice: str) -> Utterance:
     """The text spoken; what is odd about it is told. UserError when there is nothing to say."""
     utterance = speak(text, voice)
+    for note in utterance.notes:
+        tell(note)
+    return utterance
+
+
+def hear(source: Source, curve_set: CurveSet) -> Utterance:
+    """What a source says, with a bar for long recordings; what is odd about it is told. UserError."""
+    intake = Intake()
+    try:
+        with Progress(100, "percent") as bar:
+            known = [*curve_set.phonemes, *curve_set.phoneme_map]
+            utterance = intake.utter(source, known, lambda done: bar.step(round(100 * done)))
+    finally:
+        intake.close()
     for note in utterance.notes:
         tell(note)
     return utterance

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import threading
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -60,12 +61,16 @@ class Autosave(QObject):
         self._timer.setInterval(DELAY_MS)
         self._timer.timeout.connect(self.write)
         document.bigram_changed.connect(self._bigram_changed)
+        document.bigrams_changed.connect(self._bigrams_changed)
         document.settings_changed.connect(self._changed)
         document.replaced.connect(self._replaced)
         document.file_changed.connect(self._changed)
 
     def _bigram_changed(self, pair: Pair) -> None:
-        self._pairs[pair] = None
+        self._bigrams_changed((pair,))
+
+    def _bigrams_changed(self, pairs: Sequence[Pair]) -> None:
+        self._pairs |= dict.fromkeys(pairs)
         self._changed()
 
     def _replaced(self) -> None:

@@ -5,15 +5,15 @@ from __future__ import annotations
 from pathlib import Path
 
 from PySide6.QtCore import QObject, QTimer, Signal
-from PySide6.QtGui import QActionGroup
+from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QFileDialog
 
 from core_pipeline.errors import UserError
-from core_pipeline.faces.looks import ANGLES
 from core_pipeline.faces.open_face import Opened
 from core_pipeline.faces.pose_set import new_curve_set
 
 from .. import resources
+from .company import Company
 from .parts import Parts
 
 CAPTION_MS = 500
@@ -34,13 +34,14 @@ class Character(QObject):
         self._preview = parts.preview
         self._faces = parts.faces
         self._state = parts.state
+        self.company = Company(parts, self)
         self._poses: tuple[str, ...] = ()
         self._others: list[Path] = []  # to try, when the present face can make none of a new set's poses
         self._caption = QTimer(self)
         self._caption.setInterval(CAPTION_MS)
         self._caption.timeout.connect(self._show_caption)
         self._caption.start()
-        self._group: QActionGroup = self._window.actions_.characters_menu.choice()
+        self._ours: list[QAction] = []
         self._connect()
         self._menu()
 
@@ -48,15 +49,15 @@ class Character(QObject):
         view, preview = self._window.face_view, self._preview
         self._faces.opened.connect(self._opened)
         self._faces.failed.connect(self._failed)
+        self._faces.reading.connect(self._window.hint_label.setText)
         preview.frame_ready.connect(view.set_frame)
         preview.failed.connect(lambda reason: view.set_message(reason, retry=True))
         view.orbited.connect(preview.orbit)
         view.panned.connect(preview.pan)
         view.zoomed.connect(preview.zoom)
-        view.reset_wanted.connect(lambda: preview.set_angle(ANGLES["front"]))
-        view.cutaway_wanted.connect(lambda on: preview.cut_away(0, on))
-        view.cutaway_wanted.connect(view.set_cutaway)
-        self._window.actions_.lively.toggled.connect(preview.set_lively)
+        view.cutaway_wanted.connect(self._cut_away)
+        view.away_wanted.connect(self.send_away)
+        self.company.changed.connect(self._mark)
         view.retry_wanted.connect(preview.worker.retry)
         view.resized.connect(preview.resize)
 
@@ -64,17 +65,18 @@ class Character(QObject):
         actions, menu = self._window.actions_, self._window.actions_.characters_menu
         for folder in resources.characters():
             action = menu.add(f"character.{folder.name}", folder.name.capitalize(), checked=False)
-            action.setActionGroup(self._group)
             action.setData(str(folder))
             action.triggered.connect(lambda _=False, folder=folder: self.open(folder))
+            self._ours.append(action)
+        actions.open_face.triggered.connect(lambda _=False: self._take(self.ask_file(), 0))
+        actions.open_face_folder.triggered.connect(lambda _=False: self._take(self.ask_folder(), 0))
         actions.new_set_for_face.triggered.connect(self._new_set)
-        actions.open_face.triggered.connect(self._ask_file)
-        actions.open_face_folder.triggered.connect(self._ask_folder)
 
     def set_poses(self, poses: tuple[str, ...]) -> None:
         """The pose set of the curves; the face is matched to it."""
         if poses != self._poses:
             self._poses = poses
+            self.company.set_poses(poses)
             self._others = [folder for folder in resources.characters() if folder != self._faces.path]
             self.open(self._faces.path, keep=True)
 
@@ -83,21 +85,44 @@ class Character(QObject):
         if not keep:
             self._others = []
         self._faces.open(path, self._poses)
-        for action in self._group.actions():
-            action.setChecked(action.data() == str(path))
+        self._mark()
+
+    @property
+    def paths(self) -> list[Path]:
+        """Where the faces in the picture are, the first and its guests."""
+        return [self._faces.path, *self.company.paths]
+
+    def put(self, place: int, path: Path) -> None:
+        """Another face at a place of the picture, counted from the left."""
+        guest = self.company.guest_at(place)
+        if guest is None:
+            self.open(path)
+        else:
+            self.company.change(guest, path)
+
+    def send_away(self, place: int) -> None:
+        """One face less; when it was the first, its neighbour becomes the first."""
+        guest = self.company.guest_at(place)
+        if guest is not None:
+            self.company.remove(guest)
+        elif self.company.paths:
+            self.open(self.company.remove(0))
 
     def restore(self) -> None:
-        """Last time's face, if it is still there."""
-        self._window.actions_.lively.setChecked(self._state.flag("lively", True))
+        """Last time's faces, those that are still there."""
         path = Path(self._state.text("face") or resources.face_folder())
         if path.exists() and path != self._faces.path:
             self.open(path)
+        for name in self._state.texts("faces beside"):
+            if Path(name).exists():
+                self.company.add(Path(name))
 
     def remember(self) -> None:
-        """Keep this time's face, and stop what this object runs."""
+        """Keep this time's faces, and stop what this object runs."""
         self._state.put("face", str(self._faces.path))
-        self._state.put("lively", self._window.actions_.lively.isChecked())
+        self._state.put("faces beside", [str(path) for path in self.company.paths])
         self._caption.stop()
+        self.company.close()
 
     def _new_set(self) -> None:
         face = self._preview.face
@@ -107,26 +132,30 @@ class Character(QObject):
         except UserError as error:
             self._window.hint_label.setText(str(error))
 
-    def _ask_file(self) -> None:
+    def ask_file(self) -> Path | None:
+        """Let the user choose a face's file; None when nothing was chosen."""
         name, _ = QFileDialog.getOpenFileName(self._window, self.tr("Open a face"), self._state.text("faces"), RIGS)
-        self._take(name)
+        return self._remembered(name)
 
-    def _ask_folder(self) -> None:
-        self._take(QFileDialog.getExistingDirectory(self._window, self.tr("Open a folder of .obj poses")))
+    def ask_folder(self) -> Path | None:
+        """The same for a folder of poses."""
+        return self._remembered(QFileDialog.getExistingDirectory(self._window, self.tr("Open a folder of .obj poses")))
 
-    def _take(self, name: str) -> None:
+    def _remembered(self, name: str) -> Path | None:
         if name:
             self._state.put("faces", str(Path(name).parent))
-            self.open(Path(name))
+        return Path(name) if name else None
+
+    def _take(self, path: Path | None, place: int) -> None:
+        if path is not None:
+            self.put(place, path)
 
     def _opened(self, opened: Opened) -> None:
         if not opened.retarget.poses and self._others:
             self.open(self._others.pop(0), keep=True)  # perhaps another of ours can make these poses
             return
         self._others = []
-        self._preview.set_face(opened.face)
-        self._window.face_view.set_cutaway(False)
-        self._window.face_view.setToolTip("\n".join(opened.notes))
+        self.company.set_first(opened)
         if opened.notes:
             self._window.hint_label.setText(opened.notes[0])
 
@@ -135,8 +164,18 @@ class Character(QObject):
             self._window.face_view.set_message(reason)
         self._window.hint_label.setText(reason)
 
+    def _cut_away(self, place: int, on: bool) -> None:
+        self._preview.cut_away(place, on)
+        self.company.show_tags()
+
+    def _mark(self) -> None:
+        """Check those of ours that are in the picture."""
+        shown = {str(path) for path in self.paths}
+        for action in self._ours:
+            action.setChecked(action.data() in shown)
+
     def _show_caption(self) -> None:
-        face, ms = self._preview.face, self._preview.milliseconds
-        if face is not None and ms:
+        ms = self._preview.milliseconds
+        if self._preview.face is not None and ms:
             width, height = self._preview.frame_size
-            self._window.face_view.set_caption(f"{face.title} · {width} × {height} · {ms:.0f} ms")
+            self._window.preview_panel.set_caption(f"{width} × {height} · {ms:.0f} ms")

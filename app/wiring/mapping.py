@@ -14,16 +14,13 @@ from core_pipeline.faces import retarget
 from core_pipeline.faces.mapping_json import load_presets, save_mapping
 from core_pipeline.faces.open_face import Opened
 from core_pipeline.faces.retarget import OWN_NAMES, Mix, Preset
-from core_pipeline.poses import TONGUE
+from core_pipeline.poses import shown_alone
 from widgets.preview.mapping_panel import REFERENCE
 
 from .. import resources
 from ..commands import ChangeMapping, MappingOfFace
 from ..reference import Reference
 from .parts import Parts
-
-#: Behind closed lips a tongue cannot be seen: single tongue poses are shown with the mouth open this much.
-TONGUE_OPEN = 0.3
 
 #: The panel says this itself, and of the present mixes.
 _MISSING = "Not available on this face"
@@ -67,7 +64,7 @@ class Mapping(QObject):
         self._window.mapping_dock.visibilityChanged.connect(lambda _: self._refer())
         panel.pose_picked.connect(lambda _: self._refer())
         panel.settled.connect(self._settle)
-        panel.pose_shown.connect(lambda pose: self._preview.show_pose(_alone(pose)))
+        panel.pose_shown.connect(lambda pose: self._preview.show_pose(self._alone(pose)))
         panel.mix_changed.connect(self._change)
         panel.preset_chosen.connect(self._choose_preset)
         panel.save_wanted.connect(self.save)
@@ -193,7 +190,7 @@ class Mapping(QObject):
             self._push(self._begun_with, mixes, self.tr("Mix {0}").format(pose))
         self._by_hand = False
         if not (self._preview.player.playing or self._preview.bigram_player.playing):
-            self._preview.show_pose(_alone(pose))
+            self._preview.show_pose(self._alone(pose))
 
     def _settle(self) -> None:
         """The next change is another step."""
@@ -251,21 +248,18 @@ class Mapping(QObject):
         self._unsaved.pop(path, None)
         return True
 
+    def _alone(self, pose: str) -> dict[str, float]:
+        """Weights that show one pose; none for no pose."""
+        return shown_alone(pose, self._poses) if pose else {}
+
     def _refer(self) -> None:
         """Our own face beside a user's: not where ours is the one that is open."""
         pose = self._panel.pose
         if pose and self._editable and self._panel.isVisible():
             size = round(REFERENCE * self._panel.devicePixelRatioF())
-            self._reference.ask(pose, _alone(pose), size)
+            self._reference.ask(pose, self._alone(pose), size)
         else:
             self._panel.set_reference(QImage(), "")
-
-
-def _alone(pose: str) -> dict[str, float]:
-    """Weights that show one pose; none for no pose."""
-    if not pose:
-        return {}
-    return {pose: 1.0, "open": TONGUE_OPEN} if pose in TONGUE else {pose: 1.0}
 
 
 def _copied(mixes: ReadOnly[str, Mix]) -> Mixes:

@@ -64,7 +64,7 @@ class OpenBigram(QObject):
         w.stage_panel.pose_activated.connect(self.activate_pose)
         w.stage_panel.bigram_picked.connect(self._open_from_overlay)
         w.picker.picked.connect(self.open)
-        w.weak_list.picked.connect(self._open_weak)
+        w.weak_list.picked.connect(self.open_in_sentence)
 
     # ── open ─────────────────────────────────────────────────────────────────────────────────────
 
@@ -127,8 +127,13 @@ class OpenBigram(QObject):
         self.activate_pose(pose)
         self._go_to(seconds)
 
-    def _open_weak(self, pair: Pair, seconds: float | None) -> None:
-        self.open(pair)
+    def open_in_sentence(self, pair: Pair, seconds: float | None) -> None:
+        """Open a bigram where the sentence has it nearest to a moment, and go there."""
+        stages, index = self._session.stages, None
+        if stages is not None and seconds is not None:
+            places = [i for i, other in enumerate(stages.schedule.pairs()) if other == pair]
+            index = min(places, key=lambda i: abs(stages.schedule.times[i + 1] - seconds), default=None)
+        self.open(pair, index)
         if seconds is not None:
             self._go_to(seconds)
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from core_pipeline.speech.speaker import Speaker
+
 from ..document import Document
 from ..faces import Faces
 from ..file_actions import FileActions
@@ -18,7 +20,8 @@ from ..speech_worker import SpeechWorker
 class Parts:
     """Everything that wiring connects.
 
-    speech  speaks the sentence; search speaks a word typed into the picker's search
+    speech   speaks the sentence; search speaks a word typed into the picker's search
+    speaker  what both of them speak with
     """
 
     document: Document
@@ -30,3 +33,4 @@ class Parts:
     state: ViewState
     speech: SpeechWorker
     search: SpeechWorker
+    speaker: Speaker

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QObject
 
-from core_pipeline.speech.espeak import VOICES
+from core_pipeline.speech.espeak import ALL_VOICES, PITCH
 from core_pipeline.speech.utterance import Utterance
 
 from .. import resources
@@ -19,7 +19,7 @@ class Sentence(QObject):
     """Turns what is typed into an utterance, and the transport's wishes into playing.
 
     pinned  the sentences that are kept
-    voice   who speaks, one of VOICES
+    voice   who speaks, one of ALL_VOICES; rate, pitch: how
     """
 
     def __init__(self, parts: Parts, parent: QObject) -> None:
@@ -30,20 +30,21 @@ class Sentence(QObject):
         self._speech = parts.speech
         self._window = parts.window
         self._play_next = False
-        self.voice = next(iter(VOICES))
+        self.voice = next(iter(ALL_VOICES))
+        self.rate, self.pitch = RATE, PITCH
         self.pinned = Pinned(parts.state, resources.TEST_SENTENCES, self)
         w, player = self._window, self._player
         w.sentence_bar.sentence_entered.connect(self.type)
         self._speech.spoken.connect(self._spoken)
         self._speech.failed.connect(lambda reason: w.sentence_bar.set_message(reason, "error"))
-        w.voice_bar.set_voices(VOICES)
+        w.voice_bar.set_voices(ALL_VOICES)
         w.voice_bar.voice_chosen.connect(self._choose_voice)
         w.transport.play_toggled.connect(self._preview.toggle_sentence)
         w.transport.stopped.connect(self._stop)
         w.transport.to_start.connect(self.to_start)
         w.transport.loop_toggled.connect(self.set_loop)
         w.voice_bar.speed_changed.connect(player.set_speed)
-        w.stage_panel.scrubbed.connect(self._preview.scrub)
+        w.stage_panel.scrubbed.connect(lambda seconds: self._preview.scrub(seconds, aloud=True))
         w.stage_panel.loop_range_changed.connect(self._set_loop_range)
         player.playing_changed.connect(w.transport.set_playing)
         player.playing_changed.connect(w.stage_panel.set_following)
@@ -57,7 +58,7 @@ class Sentence(QObject):
         if bar.sentence != text:
             bar.set_sentence(text)
         if text.strip():
-            self._speech.request(text, self.voice, RATE)
+            self._speech.request(text, self.voice, self.rate, self.pitch)
             return
         self._player.set_utterance(0.0, None)
         self._session.set_utterance(None)
@@ -84,7 +85,7 @@ class Sentence(QObject):
 
     def set_voice(self, name: str) -> None:
         """Who speaks the next sentence; a voice that is not there changes nothing."""
-        if name in VOICES:
+        if name in ALL_VOICES:
             self.voice = name
             self._window.voice_bar.set_voice(name)
 

@@ -1,18 +1,18 @@
 """The only place, with its neighbours, where wishes become commands and values reach the views.
 
-open_bigram.py has the canvas and what belongs to it, sentence.py the sentence and its transport,
-character.py the face, mapping.py what makes its poses, palette.py the command palette, keys.py keymaps and
-shortcuts; here is the rest: the document's news, the pipeline's results, settings, search, menus.
+open_bigram.py has the canvas and what belongs to it, sentence.py the sentence and its transport, character.py the
+face, company.py those beside it, face_picker.py their choice, looks.py light and camera, mapping.py what makes a
+face's poses, palette.py the command palette, keys.py keymaps and shortcuts; here is the rest: the document's news,
+the pipeline's results, settings, search, menus.
 """
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtCore import QObject, QTimer
+from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QMessageBox
 
-from core_pipeline.diagnose import weak_bigrams
 from core_pipeline.errors import UserError
 from core_pipeline.phone_classes import by_class, by_frequency
 from core_pipeline.phonemes import SILENCE, Pair, pair_name
@@ -20,25 +20,35 @@ from core_pipeline.pipeline import Stages
 from core_pipeline.poses import MEANING
 from core_pipeline.settings import Settings
 from core_pipeline.speech.utterance import Utterance
-from widgets.picker.weak_list import WeakRow
 
 from ..exchange import Exchange
 from ..preview import BIGRAM_SECONDS
 from .before_after import BeforeAfter
 from .beside import Beside
+from .carrier import Carrier
 from .character import Character
+from .compare import Compare
+from .face_picker import FacePicking
 from .keys import KeysOfWindow
+from .layers import Layers
 from .layouts import Layouts
+from .looks import Looks
 from .mapping import Mapping
 from .open_bigram import OpenBigram
+from .other_method import OtherMethod
 from .palette import Palette
 from .parts import Parts
+from .phone_sets import PhoneSets
+from .queue import Queue
 from .sentence import RATE, Sentence
 from .sentences import Sentences
+from .speech_in import SpeechIn
+from .statistics import Statistics
+from .suggesting import Suggesting
 from .tabs import Tabs
-
-#: What may lag a moment behind a drag does so for this long.
-LATE_MS = 120
+from .time_spent import TimeSpent
+from .tongue import Tongue
+from .weak import Weak
 
 
 class Wiring(QObject):
@@ -54,22 +64,33 @@ class Wiring(QObject):
         self._state = parts.state
         self._search = parts.search
         self._statuses: dict[Pair, str] = {}
-        self._late = QTimer(self)
-        self._late.setSingleShot(True)
-        self._late.setInterval(LATE_MS)
-        self._late.timeout.connect(self._show_weak)
         self.exchange = Exchange(parts.files, parts.session)
         self.bigram = OpenBigram(parts, self)
         self.tabs = Tabs(parts, self.bigram, self)
         self.sentence = Sentence(parts, self)
+        self.speech_in = SpeechIn(parts, self.sentence, self)
         self.sentences = Sentences(parts, self.sentence, self)
         self.character = Character(parts, self)
+        self.picking = FacePicking(parts, self.character, self)
+        self.looks = Looks(parts, self)
+        self.tongue = Tongue(parts, self)
         self.mapping = Mapping(parts, self)
+        self.weak = Weak(parts, self.bigram, self.sentence, self)
+        self.suggesting = Suggesting(parts, self.bigram, self.weak, self)
+        self.carrier = Carrier(parts, self.sentence, self)
+        self.queue = Queue(parts, self.bigram, self.weak, self.carrier, self)
+        self.time_spent = TimeSpent(parts, self.bigram, self)
+        self.compare = Compare(parts, self.bigram, self)
+        self.other_method = OtherMethod(parts, self.character.company, self)
+        self.statistics = Statistics(parts, self.queue, self)
+        self.layers = Layers(parts, self.bigram, self)
+        self.phone_sets = PhoneSets(parts, self)
         self.palette = Palette(parts, self.bigram, self.sentence, self)
         self.keys = KeysOfWindow(parts, self)
         self.layouts = Layouts(parts, self.keys.shortcuts, self)
         self.before_after = BeforeAfter(parts, self)
         self.bigram.opened.connect(self.before_after.forget)
+        self.queue.frequencies_changed.connect(self._show_orders)
         self._connect_document()
         self.beside = Beside(parts, self.bigram, self)  # after: it follows what the document has told the canvas
         self._connect_views()
@@ -84,6 +105,7 @@ class Wiring(QObject):
 
     def _connect_document(self) -> None:
         self._document.bigram_changed.connect(self._bigram_changed)
+        self._document.bigrams_changed.connect(self._bigrams_changed)
         self._document.settings_changed.connect(self._settings_changed)
         self._document.replaced.connect(self._set_replaced)
         self._document.file_changed.connect(self._show_file)
@@ -105,6 +127,7 @@ class Wiring(QObject):
         w.bigram_transport.play_toggled.connect(preview.toggle_bigram)
         w.bigram_transport.length_changed.connect(preview.set_bigram_length)
         w.settings_panel.settings_changed.connect(self._settings_wanted)
+        w.picker.entered.connect(w.canvas.setFocus)
         w.picker.search_wanted.connect(lambda text: self._search.request(text, self.sentence.voice, RATE))
         self._search.spoken.connect(self._word_found)
         self._search.failed.connect(self._word_not_found)
@@ -124,6 +147,7 @@ class Wiring(QObject):
             (a.new_on_base, self.exchange.ask_new_on_base),
             (a.import_script, self.exchange.ask_import),
             (a.restore, self._files.ask_restore),
+            (a.author, self._files.ask_author),
             (a.export, self.exchange.ask_export),
             (a.export_weights, self.exchange.ask_export_weights),
             (a.quit, w.close),
@@ -135,7 +159,6 @@ class Wiring(QObject):
             (a.play, self._preview.toggle_sentence),
             (a.play_bigram, self._preview.toggle_bigram),
             (a.to_start, self.sentence.to_start),
-            (a.reset_view, w.face_view.reset_wanted.emit),
             (a.next_part, w.focus_ring.go),
             (a.previous_part, lambda: w.focus_ring.go(-1)),
             (a.about, self._about),
@@ -151,13 +174,7 @@ class Wiring(QObject):
 
     def _set_replaced(self) -> None:
         curve_set, w = self._document.curve_set, self._window
-        w.picker.set_orders(
-            {
-                self.tr("As in the set"): curve_set.phonemes,
-                self.tr("By class"): by_class(curve_set.phonemes),
-                self.tr("By frequency"): by_frequency(curve_set.phonemes),
-            }
-        )
+        self._show_orders()
         w.pose_list.set_poses(curve_set.poses, {p: MEANING[p] for p in curve_set.poses if p in MEANING})
         w.canvas.set_poses(curve_set.poses)
         w.weights.set_poses(curve_set.poses)
@@ -168,6 +185,17 @@ class Wiring(QObject):
         self.bigram.set_replaced()
         self.character.set_poses(curve_set.poses)
 
+    def _show_orders(self) -> None:
+        """In which orders the picker can show the phones."""
+        phones = self._document.curve_set.phonemes
+        self._window.picker.set_orders(
+            {
+                self.tr("As in the set"): phones,
+                self.tr("By class"): by_class(phones),
+                self.tr("By frequency"): by_frequency(phones, self.queue.shares),
+            }
+        )
+
     def _bigram_changed(self, pair: Pair) -> None:
         curve_set = self._document.curve_set
         self._session.set_curve_set(curve_set)
@@ -177,6 +205,13 @@ class Wiring(QObject):
             self.bigram.show_curves()
         elif pair != self.beside.pair:
             self.bigram.open(pair)  # undo reached another bigram: show what it did
+
+    def _bigrams_changed(self) -> None:
+        curve_set = self._document.curve_set
+        self._session.set_curve_set(curve_set)
+        self._statuses = {pair: curve_set.status_of(pair) for pair in self._statuses}
+        self._show_statuses()
+        self.bigram.show_curves()
 
     def _settings_changed(self) -> None:
         self._session.set_curve_set(self._document.curve_set)
@@ -196,10 +231,7 @@ class Wiring(QObject):
         self._window.canvas.set_spline(settings.spline)
 
     def _show_statuses(self) -> None:
-        total = len(self._document.curve_set.phonemes) ** 2
-        drawn = sum(status != "empty" for pair, status in self._statuses.items() if SILENCE not in pair)
         self._window.picker.set_statuses(self._statuses)
-        self._window.picker.set_coverage(self.tr("{0} of {1} bigrams").format(drawn, total), drawn / max(total, 1))
 
     def _show_file(self) -> None:
         document, w = self._document, self._window
@@ -207,11 +239,13 @@ class Wiring(QObject):
         w.setWindowModified(document.is_dirty)
         if document.read_only_reason:
             text = self.tr("read-only")
+            w.hint_label.setText(document.read_only_reason)
         elif document.is_dirty:
             text = self.tr("unsaved changes")
         else:
             text = self.tr("saved") if document.path is not None else self.tr("no changes")
         w.saved_label.setText(text)
+        w.saved_label.setToolTip(document.read_only_reason)
 
     def _show_saved(self) -> None:
         if self._document.is_dirty:
@@ -224,8 +258,6 @@ class Wiring(QObject):
         w.stage_panel.set_stages(stages)
         w.stage_panel.set_source_phones(utterance.schedule.phones if utterance is not None else None)
         self.bigram.show_place()
-        if not self._late.isActive():
-            self._late.start()
         if stages is None:
             w.timing_label.setText("")
             w.missing_label.setText("")
@@ -234,16 +266,6 @@ class Wiring(QObject):
         names = ", ".join(pair_name(pair) for pair in stages.missing)
         w.missing_label.setText(self.tr("{0} missing").format(len(stages.missing)) if names else "")
         w.missing_label.setToolTip(names)
-
-    def _show_weak(self) -> None:
-        w, stages = self._window, self._session.stages
-        weak = weak_bigrams(stages, self._session.curve_set) if stages is not None else []
-        w.weak_list.set_rows([WeakRow(x.pair, x.reason, x.worst.time, x.uses, not x.is_hint) for x in weak])
-        w.picker.set_weak({x.pair: x.reason for x in weak if not x.is_hint})
-        w.picker.set_used(self._session.used())
-        pairs = stages.schedule.pairs() if stages is not None else []
-        words = zip(reversed(pairs), reversed(self.bigram.examples), strict=False)  # of several, the first
-        w.picker.set_words({pair: text for pair, (text, _) in words if text})
 
     def _sentence_moment(self, seconds: float) -> None:
         w = self._window
@@ -266,7 +288,9 @@ class Wiring(QObject):
     # ── the window ───────────────────────────────────────────────────────────────────────────────
 
     def _open_dropped(self, path: Path) -> None:
-        """A curve set, a diphone script, or else a face."""
+        """Something spoken, a curve set, a diphone script, or else a face."""
+        if self.speech_in.take(path):
+            return
         if path.suffix.lower() == ".py":
             self.exchange.import_script(path)
         elif path.suffix.lower() != ".json":
@@ -286,7 +310,7 @@ class Wiring(QObject):
         )
 
     def _may_close(self) -> bool:
-        if not self._files.may_discard() or not self.mapping.may_close():
+        if not self._files.may_discard() or not self.mapping.may_close() or not self.speech_in.may_close():
             return False
         self._files.autosave.clear()
         return True
@@ -298,16 +322,20 @@ class Wiring(QObject):
         w.picker.set_order(state.text("order of phones"))
         w.actions_.safe_colours.setChecked(state.flag("safe colours", False))
         self.keys.restore()
+        self.looks.restore()
         self.character.restore()
         self.sentence.set_loop(state.flag("loop", True))
         w.voice_bar.set_speed(state.number("speed", 1.0))
         self._preview.player.set_speed(state.number("speed", 1.0))
         self.sentence.set_voice(state.text("voice"))
+        self.speech_in.restore()
 
     def remember(self) -> None:
         """Keep this time's layout."""
         state, w, player = self._state, self._window, self._preview.player
         self.character.remember()
+        self.looks.remember()
+        self.picking.close()
         self.mapping.close()
         self.sentences.remember()
         state.put("geometry", w.saveGeometry())
@@ -318,4 +346,8 @@ class Wiring(QObject):
         state.put("loop", player.looping)
         state.put("speed", player.speed)
         state.put("voice", self.sentence.voice)
-        self._late.stop()
+        self.speech_in.close()
+        self.weak.close()
+        self.carrier.close()
+        self.time_spent.close()
+        self.other_method.close()

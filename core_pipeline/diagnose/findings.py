@@ -52,17 +52,17 @@ class Finding:
             case "flat":
                 return "empty: nothing moves"
             case "closure":
-                return f"closure not reached: {pose} gets to {share} of its usual height"
+                return f"not closed: {pose} reaches {share} of its usual height"
             case "hole":
-                return f"hole: no pose moves for {1000 * self.amount:.0f} ms"
+                return f"hole: {1000 * self.amount:.0f} ms without any pose"
             case "slowed":
                 return f"speed limit takes {share} of {pose}"
             case "clipped":
-                return f"constraint takes {share} of {pose}" + (f", for {other}" if other else "")
+                return f"{other or 'a constraint'} takes {share} of {pose}"
             case "jitter":
-                return f"jitter: {pose} turns {self.amount:.0f} times"
+                return f"jitter: {pose} turns {self.amount:.0f}×"
             case "short":
-                return f"pops: {pose} is held for {1000 * self.amount:.0f} ms only"
+                return f"pops: {pose} for {1000 * self.amount:.0f} ms"
             case "far":
                 return f"unlike its row and column, by {self.amount:.2f}"
             case "mirror":

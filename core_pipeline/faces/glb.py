@@ -5,14 +5,13 @@ Every vertex is placed as the file's rest pose places it (nodes, and joints wher
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from core_pipeline.errors import UserError
 from core_pipeline.faces import draco
 from core_pipeline.faces.face import Face, Floats
 from core_pipeline.faces.finer import MOST_TRIANGLES, Finer, head_box
@@ -22,13 +21,12 @@ from core_pipeline.faces.gltf_file import GltfFile, Json
 from core_pipeline.faces.gltf_scene import Matrix, Scene
 from core_pipeline.faces.limits import LARGEST, MAX_MORPH_BYTES, MAX_TRIANGLES, MAX_VERTICES
 from core_pipeline.faces.normals import VertexNormals, seam_groups, shape_normals
+from core_pipeline.faces.steps import Report, Steps, silent
 from core_pipeline.faces.vrm import expressions
 from core_pipeline.files.json_text import shown
 
 MAX_PARTS = 2000
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
-
-Cancelled = Callable[[], bool]
 
 
 def read_glb(path: str | Path) -> Face:
@@ -36,21 +34,18 @@ def read_glb(path: str | Path) -> Face:
     return read_rig(Path(path))[0]
 
 
-def read_rig(path: Path, cancelled: Cancelled = lambda: False) -> tuple[Face, list[Path], tuple[str, ...]]:
+def read_rig(path: Path, report: Report = silent) -> tuple[Face, list[Path], tuple[str, ...]]:
     """The face in a file, all the files it was read from, and what is odd about it.
 
-    `cancelled` is asked before every part. UserError as for `read_glb`.
+    `report` is told after every shape. UserError as for `read_glb`.
     """
     gltf = GltfFile(path)
     scene, colours = Scene(gltf), Colours(gltf)
     planned = _planned(gltf, scene)
-    patches = []
-    for plan in planned:
-        if cancelled():
-            raise UserError(f"{path.name}: opening was cancelled.")
-        patches.append(_patch(gltf, scene, plan))
+    step = Steps(sum(1 + 2 * len(plan.names) for plan in planned), report)
+    patches = [_patch(gltf, scene, plan, step) for plan in planned]
     _colour(colours, patches, planned)
-    face = _join(gltf, patches)
+    face = _join(gltf, patches, step)
     return replace(face, expressions=_expressions(gltf, planned, face.shapes)), gltf.files, tuple(gltf.notes)
 
 
@@ -155,7 +150,7 @@ def _expressions(gltf: GltfFile, plans: list[_Plan], shapes: tuple[str, ...]) ->
     return {name: mix for name, mix in made.items() if set(mix) <= set(shapes)}
 
 
-def _patch(gltf: GltfFile, scene: Scene, plan: _Plan) -> _Patch:
+def _patch(gltf: GltfFile, scene: Scene, plan: _Plan, step: Steps) -> _Patch:
     """A primitive where the scene puts it; not coloured yet."""
     primitive, title = plan.primitive, plan.title
     attributes, targets = gltf.part(primitive, "attributes"), gltf.parts(primitive, "targets")
@@ -175,6 +170,8 @@ def _patch(gltf: GltfFile, scene: Scene, plan: _Plan) -> _Patch:
     for name, target in zip(plan.names, targets, strict=True):
         if "POSITION" in target:
             patch.deltas[name] = _move(place, gltf.read(target["POSITION"], "VEC3").astype(np.float32), 0)
+        step()
+    step()
     return patch
 
 
@@ -192,7 +189,7 @@ def _colour(colours: Colours, patches: list[_Patch], plans: list[_Plan]) -> None
         if box is not None:
             finer = colours.finer(plan.primitive, patch.positions, patch.triangles, box, room)
             room -= len(finer.triangles) - len(patch.triangles)
-        surface = colours.of(plan.primitive, count, finer)
+        surface = colours.of(plan.primitive, plan.title, count, finer)
         if finer.rounds:
             if not patch.normals.any():  # those of the flat triangles as they were, or facets would show
                 patch.normals = VertexNormals(patch.triangles, seam_groups(patch.positions)).of(patch.positions)
@@ -242,7 +239,7 @@ def _triangles(gltf: GltfFile, primitive: Json, count: int, title: str) -> NDArr
     return corners.astype(np.uint32)
 
 
-def _join(gltf: GltfFile, patches: list[_Patch]) -> Face:
+def _join(gltf: GltfFile, patches: list[_Patch], step: Steps) -> Face:
     sizes = [len(patch.positions) for patch in patches]
     shapes = tuple(dict.fromkeys(name for patch in patches for name in patch.deltas))
     if not shapes:
@@ -262,7 +259,7 @@ def _join(gltf: GltfFile, patches: list[_Patch]) -> Face:
         for name, delta in patch.deltas.items():
             deltas[shapes.index(name), start : start + len(delta)] = delta
     stored = np.concatenate([patch.normals for patch in patches])
-    normals, normal_deltas = shape_normals(positions, triangles, deltas, stored)
+    normals, normal_deltas = shape_normals(positions, triangles, deltas, stored, step)
     return Face(
         name=gltf.path.stem,
         title=gltf.path.stem,

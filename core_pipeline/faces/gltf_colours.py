@@ -6,32 +6,26 @@ invisible (lash cards, corneas) are left out, else they would stand before the e
 
 from __future__ import annotations
 
-import io
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image, UnidentifiedImageError
 
-from core_pipeline.errors import UserError
 from core_pipeline.faces.face import Floats
 from core_pipeline.faces.finer import Box, Finer, refined
 from core_pipeline.faces.gltf_file import GltfFile, Json
+from core_pipeline.faces.gltf_pictures import Picture, unpacked
+from core_pipeline.faces.obj_colours import SKIN, named_colour
 
-#: Pixels a picture may announce; it is not unpacked before.
-MAX_PIXELS = 8192 * 8192
-#: WebP is unpacked by its library, into more than one copy.
-MAX_PIXELS_WEBP = MAX_PIXELS // 4
-#: Pictures are looked up at this size: one value per vertex wants no more.
-_SIDE = 1024
 _VISIBLE = 0.4
+#: A material whose colour is as light as that has left all colour to its picture.
+_WHITE = 0.95
 #: Most pixels (in each direction) averaged for one vertex: more would mix in what lies beside an island.
 _BLUR = 4
 _REPEAT, _CLAMP, _MIRROR = 10497, 33071, 33648
 
 Triangles = NDArray[np.uint32]
-Picture = NDArray[np.uint8]
 
 
 @dataclass(frozen=True)
@@ -86,8 +80,11 @@ class Colours:
             return Finer(triangles)
         return refined(positions, found.places, triangles, found.sample, box, most)
 
-    def of(self, primitive: Json, count: int, finer: Finer) -> Surface:
-        """The surface of a primitive that had `count` vertices and is now as `finer` says."""
+    def of(self, primitive: Json, name: str, count: int, finer: Finer) -> Surface:
+        """The surface of a primitive that had `count` vertices and is now as `finer` says.
+
+        name  of the part: where its picture cannot be read, it tells what colour to expect
+        """
         gltf, triangles = self._gltf, finer.triangles
         material = gltf.item("materials", primitive["material"]) if "material" in primitive else {}
         surface = gltf.part(material, "pbrMetallicRoughness")
@@ -114,6 +111,9 @@ class Colours:
             at_vertices, at_triangles = pictured.colours(finer)
             colours[:, :3] *= at_vertices[:, :3]
             seen = seen * (at_triangles[:, 3] + at_vertices[:, 3][triangles].mean(axis=1)) / 2
+        elif "baseColorTexture" in surface and index is None and min(base[:3]) > _WHITE:
+            expected = named_colour(f"{name} {material.get('name', '')}")
+            colours[:, :3] *= (expected or SKIN)[:3]
         shown = np.ones(len(triangles), bool)
         if material.get("alphaMode") in ("MASK", "BLEND"):
             cutoff = gltf.floats([material.get("alphaCutoff", 0.5)], 1)[0]
@@ -148,36 +148,19 @@ class Colours:
     def _picture(self, texture: Json) -> Picture | None:
         """(h, w, 4) sRGB, or None after a note when this kind of picture cannot be read."""
         gltf = self._gltf
-        webp = gltf.part(gltf.part(texture, "extensions"), "EXT_texture_webp")
-        index = webp.get("source", texture.get("source"))
+        other = gltf.part(texture, "extensions")
+        kinds = [gltf.part(other, name) for name in ("EXT_texture_webp", "KHR_texture_basisu")]
+        index = next((kind["source"] for kind in kinds if "source" in kind), texture.get("source"))
         if index is None:
-            gltf.note("Some of its textures are in a format that cannot be read: parts show their plain colour.")
+            gltf.note("Some of its textures are in a format that cannot be read: parts show a plain colour.")
             return None
         image = gltf.item("images", index)
         if index not in self._pictures:
             raw = (
                 gltf.data(image["bufferView"]) if "bufferView" in image else gltf.beside(image.get("uri"), "a texture")
             )
-            self._pictures[index] = self._unpacked(raw, index)
+            self._pictures[index] = unpacked(gltf, raw, index)
         return self._pictures[index]
-
-    def _unpacked(self, raw: bytes, index: int) -> Picture | None:
-        gltf = self._gltf
-        try:
-            with Image.open(io.BytesIO(raw), formats=("PNG", "JPEG", "WEBP")) as image:
-                width, height = image.size
-                if width * height > (MAX_PIXELS_WEBP if image.format == "WEBP" else MAX_PIXELS):
-                    raise gltf.fail(f"image {index} has {width:,} × {height:,} pixels, more than we take; reduce it.")
-                image.draft("RGB", (_SIDE, _SIDE))
-                image.thumbnail((_SIDE, _SIDE), Image.Resampling.BOX)
-                return np.asarray(image.convert("RGBA"))
-        except UserError:
-            raise
-        except Image.DecompressionBombError:
-            raise gltf.fail(f"image {index} unpacks to far too many pixels; reduce its size.") from None
-        except (UnidentifiedImageError, OSError, ValueError, SyntaxError, EOFError, KeyError, IndexError, TypeError):
-            gltf.note(f"Image {index} cannot be read: what it covers shows its plain colour.")
-            return None
 
 
 def _shrunk(picture: Picture, times: int) -> Picture:

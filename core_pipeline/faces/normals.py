@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
@@ -44,11 +46,16 @@ def seam_groups(positions: Floats, normals: Floats | None = None) -> NDArray[np.
 
 
 def shape_normals(
-    positions: Floats, triangles: NDArray[np.uint32], deltas: Floats, given: Floats | None = None
+    positions: Floats,
+    triangles: NDArray[np.uint32],
+    deltas: Floats,
+    given: Floats | None = None,
+    step: Callable[[], None] = lambda: None,
 ) -> tuple[Floats, Floats]:
     """Normals (n, 3) at rest, and what each shape of `deltas` (k, n, 3) adds to them.
 
     given  (n, 3) normals that a file brings, zero where it brings none: they stand, and split what they differ at
+    step   called after every shape
     """
     known = np.zeros_like(positions) if given is None else given
     computed = VertexNormals(triangles, seam_groups(positions, known))
@@ -57,4 +64,5 @@ def shape_normals(
     for shape, delta in enumerate(deltas):
         if delta.any():
             turned[shape] = computed.of(positions + delta) - rest
+        step()
     return np.where(known.any(axis=1, keepdims=True), known, rest), turned

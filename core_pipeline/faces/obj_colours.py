@@ -30,8 +30,9 @@ _BY_NAME: tuple[tuple[tuple[str, ...], Colour], ...] = (
     (("gum", "tongue", "mouthsocket", "mouth_socket", "mouthbag"), (0.45, 0.13, 0.12, 0.5)),
     (("pupil",), (0.01, 0.01, 0.01, 0.9)),
     (("iris",), (0.10, 0.16, 0.22, 0.8)),
-    (("sclera", "eyeball", "eyewhite"), (0.82, 0.80, 0.78, 0.8)),
     (("lash", "brow", "hair", "beard"), (0.06, 0.04, 0.03, 0.3)),
+    (("sclera", "eyeball", "eyewhite"), (0.82, 0.80, 0.78, 0.8)),
+    (("eyeleft", "eyeright", "eye_l", "eye_r", "lefteye", "righteye"), (0.82, 0.80, 0.78, 0.8)),
 )
 
 
@@ -43,11 +44,15 @@ def part_colours(names: Sequence[str], folder: Path, library: str | None) -> lis
     known = _library(folder, library) if library else {}
     colours: list[Colour | None] = []
     for name in names:
-        plain = name.casefold()
-        colour = next((colour for words, colour in _BY_NAME if any(word in plain for word in words)), None)
-        colour = colour or known.get(name.rpartition(" ")[2], SKIN)
+        colour = named_colour(name) or known.get(name.rpartition(" ")[2], SKIN)
         colours.append(None if colour == _CLEAR else colour)
     return colours
+
+
+def named_colour(name: str) -> Colour | None:
+    """What a part's name suggests; None when it suggests nothing. Fourth place below 0: not to be seen."""
+    plain = name.casefold()
+    return next((colour for words, colour in _BY_NAME if any(word in plain for word in words)), None)
 
 
 def linear(colours: NDArray[np.float64]) -> Floats:

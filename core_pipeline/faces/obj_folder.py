@@ -7,7 +7,6 @@ the files no longer correspond; this one keeps every vertex at its own number.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +19,7 @@ from core_pipeline.faces.limits import LARGEST, MAX_MORPH_BYTES, MAX_TEXT, MAX_V
 from core_pipeline.faces.normals import shape_normals
 from core_pipeline.faces.obj_colours import SKIN, linear, part_colours
 from core_pipeline.faces.retarget import normalised
+from core_pipeline.faces.steps import Report, Steps, silent
 from core_pipeline.files.atomic import read_bytes
 from core_pipeline.files.json_text import shown
 
@@ -29,22 +29,25 @@ MAX_LINES = 12_000_000
 MAX_PARTS = 10_000
 
 _NEUTRAL = frozenset({"neutral", "rest", "base", "basis", "default", "neutralpose", "restpose"})
+#: Other heads beside the expressions of one, as sets made from scans have them.
+_IDENTITY = re.compile(r"identity_?\d+")
 _AFTER_SLASH = re.compile(rb"/\S*")
 _NEWLINE, _SPACE, _TAB = 10, 32, 9
 
 Ints = NDArray[np.int64]
-Cancelled = Callable[[], bool]
 
 
-def read_obj_folder(folder: Path, cancelled: Cancelled = lambda: False) -> tuple[Face, tuple[str, ...]]:
+def read_obj_folder(folder: Path, report: Report = silent) -> tuple[Face, tuple[str, ...]]:
     """The face in a folder, and notes about it.
 
     UserError when there is no neutral, a file is damaged or too large, or a pose has other vertices or faces than
-    the neutral. `cancelled` is asked before every file.
+    the neutral. `report` is told before every file, and after every shape.
     """
     paths = sorted(path for path in folder.iterdir() if path.suffix.casefold() == ".obj" and path.is_file())
     neutral = _neutral(folder, paths)
-    poses = [path for path in paths if path != neutral]
+    poses = [path for path in paths if path != neutral and not _IDENTITY.fullmatch(path.stem.casefold())]
+    others = len(paths) - 1 - len(poses)
+    notes = (f"{others} identity files make other heads, not expressions: they are left out.",) if others else ()
     if not poses:
         raise UserError(f"{folder}: there are no poses beside {neutral.name}; export one .obj per pose.")
     if len(poses) > MAX_POSES:
@@ -54,13 +57,13 @@ def read_obj_folder(folder: Path, cancelled: Cancelled = lambda: False) -> tuple
     if count * len(poses) * 24 > MAX_MORPH_BYTES:
         raise UserError(f"{folder}: {count:,} vertices × {len(poses)} poses need more than 512 MB; reduce the mesh.")
     triangles, colours = _dressed(base)
+    step = Steps(2 * len(poses), report)
     deltas = np.zeros((len(poses), count, 3), np.float32)
     for row, path in enumerate(poses):
-        if cancelled():
-            raise UserError(f"{folder}: opening was cancelled.")
+        step()
         deltas[row] = _Obj(path).vertices_like(base) - base.vertices
     positions = base.vertices.astype(np.float32)
-    normals, normal_deltas = shape_normals(positions, triangles, deltas)
+    normals, normal_deltas = shape_normals(positions, triangles, deltas, step=step)
     face = Face(
         name=folder.name,
         title=folder.name,
@@ -74,7 +77,7 @@ def read_obj_folder(folder: Path, cancelled: Cancelled = lambda: False) -> tuple
         parts={folder.name: (0, len(triangles))},
         camera=frame(positions),
     )
-    return face, ()
+    return face, notes
 
 
 def _dressed(base: _Obj) -> tuple[NDArray[np.uint32], Floats]:

@@ -16,6 +16,7 @@ from core_pipeline.faces.glb import read_rig
 from core_pipeline.faces.mapping_json import load_mapping, mapping_path
 from core_pipeline.faces.obj_folder import read_obj_folder
 from core_pipeline.faces.retarget import OWN_NAMES, Mix, Preset, Retarget, best
+from core_pipeline.faces.steps import Report, silent
 from core_pipeline.files.atomic import reason
 from core_pipeline.files.json_text import shown
 from core_pipeline.poses import FACEFX
@@ -41,29 +42,36 @@ def open_face(
     poses: Sequence[str] = FACEFX,
     cache: Path | None = None,
     cancelled: Cancelled = lambda: False,
+    progress: Report = silent,
 ) -> Opened:
     """The face at `path`: a folder of ours, a .glb, .gltf or .vrm file, or a folder of .obj poses.
 
     presets    naming conventions to try, when no mapping is saved beside the rig and none comes with it
     poses      the pose set of the curves that shall play
     cache      folder in which rigs are kept as read, for the next time
-    cancelled  asked now and then; True ends it with a UserError
+    cancelled  asked after every shape; True ends it with a UserError
+    progress   told the share that is read, 0…1
     UserError when there is nothing to open, or it is damaged, or too large.
     """
+
+    def report(share: float) -> None:
+        if cancelled():
+            raise UserError(f"{path}: opening was cancelled.")
+        progress(share)
+
     ours = path.is_dir() and (path / "face.glb").is_file()
-    face, notes = (face_folder.load(path), ()) if ours else _rig(path, cache, cancelled)
+    face, notes = (face_folder.load(path), ()) if ours else _rig(path, cache, report)
     retarget = _retarget(path, face, presets, poses, ours)
     face = replace(face, pose_map=retarget.poses)
     return Opened(face, retarget, (*notes, *retarget.notes, *_still_poses(face, retarget.poses)))
 
 
-def _rig(path: Path, cache: Path | None, cancelled: Cancelled) -> Read:
+def _rig(path: Path, cache: Path | None, report: Report) -> Read:
     kept = rig_cache.recall(path, cache) if cache is not None else None
     if kept is not None:
         return kept
-    face, files, notes = _read(path, cancelled)
-    if cancelled():
-        raise UserError(f"{path}: opening was cancelled.")
+    face, files, notes = _read(path, report)
+    report(1.0)
     face, turned = turned_upright(face)
     face = replace(face, camera=head_camera(face))
     notes = (*notes, *turned, *_health(face))
@@ -72,20 +80,20 @@ def _rig(path: Path, cache: Path | None, cancelled: Cancelled) -> Read:
     return face, notes
 
 
-def _read(path: Path, cancelled: Cancelled) -> tuple[Face, list[Path], tuple[str, ...]]:
+def _read(path: Path, report: Report) -> tuple[Face, list[Path], tuple[str, ...]]:
     """The face, the files it was read from, and notes."""
     if path.is_dir():
         files = _obj_files(path)
         if not files:
             raise UserError(f"{path}: there is neither a face.glb nor any .obj file; choose a folder of poses.")
-        face, notes = read_obj_folder(path, cancelled)
+        face, notes = read_obj_folder(path, report)
         return face, [path, *files], notes
     kind = path.suffix.casefold()
     if kind == ".obj":
         raise UserError(f"{path}: one .obj has no poses; choose its folder, with one .obj per pose.")
     if kind not in (".glb", ".gltf", ".vrm") and path.is_file():
         raise UserError(f"{path}: faces are .glb, .gltf or .vrm files or folders of .obj; export it as .glb.")
-    return read_rig(path, cancelled)
+    return read_rig(path, report)
 
 
 def _obj_files(folder: Path) -> list[Path]:

@@ -50,6 +50,24 @@ def decided(bigram: Bigram, poses: set[str] | None = None) -> Bigram:
     return replace(bigram, extra={**extra, CONFLICTS: left} if left else extra)
 
 
+def with_theirs(bigram: Bigram) -> Bigram:
+    """With the other side's curves wherever a merge left it undecided, ours kept beside them; again: back to ours.
+
+    The same object where nothing is undecided.
+    """
+    swapped, marks = bigram, {}
+    for pose, mark in _marks(bigram.extra).items():
+        try:
+            keys = mark["theirs"]
+            theirs = Curve.of(keys) if keys is not None else None
+        except (ValueError, TypeError, IndexError, KeyError):  # the file may hold anything there
+            continue
+        mine = bigram.curves.get(pose)
+        swapped = swapped.with_curve(pose, theirs)
+        marks[pose] = {**mark, "theirs": None if mine is None else json.loads(keys_text(mine))}
+    return replace(swapped, extra={**bigram.extra, CONFLICTS: marks}) if marks else bigram
+
+
 def merge(base: CurveSet, ours: CurveSet, theirs: CurveSet) -> Merged:
     """What became of `base`: both sides' changes; UserError never, every file stays usable."""
     told: list[str] = []

@@ -22,7 +22,7 @@ from ..errors import UserError
 MAX_BYTES = 256 * 2**20
 MAX_ARRAYS = 64
 _KINDS = "fiub"
-_DAMAGE = (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError, struct.error)
+_DAMAGE = (zipfile.BadZipFile, zlib.error, struct.error, EOFError, ValueError, RuntimeError, OverflowError)
 _STAMP = (1980, 1, 1, 0, 0, 0)
 
 

@@ -94,7 +94,7 @@ def priority(model: AnimPho, phones: Sequence[int]) -> list[int]:
 def viterbi(model: AnimPho, phones: Sequence[int]) -> list[int]:
     """The path with the fewest misses, and of those the smoothest (ours). It needs the whole sentence."""
     mine = [model.labels[phone].nonzero()[0] for phone in phones]
-    start = (model.centres[:, 0] ** 2).sum(1)
+    start = np.sqrt((model.centres[:, 0] ** 2).sum(1))
     nodes = [start[among] if i == 0 else np.zeros(among.size) for i, among in enumerate(mine)]
 
     def edges(i: int) -> NDArray[np.float64]:

@@ -60,7 +60,17 @@ class ModeTable:
         return seen
 
     def cost(self, before: int, phone: int, after: int, modes: int) -> Array:
-        """E_c of each of a phone's modes (modes,), in nats."""
+        """E_c of each of a phone's modes (modes,), in nats; the same context is asked for again and again."""
+        asked = before, phone, after, modes
+        if asked not in self._costs:
+            self._costs[asked] = self._cost(*asked)
+        return self._costs[asked]
+
+    @cached_property
+    def _costs(self) -> dict[tuple[int, int, int, int], Array]:
+        return {}
+
+    def _cost(self, before: int, phone: int, after: int, modes: int) -> Array:
         alone = self._blended((None, phone, None), np.full(modes, 1.0 / modes))
         left = self._blended((before, phone, None), alone)
         right = self._blended((None, phone, after), alone)

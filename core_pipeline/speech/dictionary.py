@@ -9,6 +9,7 @@ from __future__ import annotations
 import importlib.util
 import re
 import unicodedata
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
@@ -60,6 +61,13 @@ class Dictionary:
         phones = self._lines[start : self._lines.index("\n", start)].lower().split()
         return tuple("h" if phone == "hh" else phone for phone in phones)
 
+    def entries(self) -> Iterator[tuple[str, tuple[str, ...]]]:
+        """Every listed word of letters alone with its first pronunciation."""
+        for line in self._lines.splitlines():
+            word, _, phones = line.partition(" ")
+            if len(word) > 1 and word.isalpha():
+                yield word, tuple("h" if phone == "HH" else phone.lower() for phone in phones.split())
+
     def speak(self, sentence: Sentence, rate: int = _USUAL_RATE) -> Utterance:
         """The sentence with mean durations, scaled to `rate` words per minute; notes name guessed words.
 
@@ -72,7 +80,7 @@ class Dictionary:
         scale = _USUAL_RATE / rate / 1000
         for word, first, last in tokens(sentence.text):
             start = len(phones)
-            for part in _parts(word):
+            for part in spoken_parts(word):
                 found = self.look_up(part)
                 if not found:
                     found = sound_out(part)
@@ -108,7 +116,7 @@ def installed() -> Dictionary:
     return Dictionary(find_dictionary())
 
 
-def _parts(word: str) -> list[str]:
+def spoken_parts(word: str) -> list[str]:
     """ "Well-known" → well, known; "$42" → forty, two, dollars: lower case, without accents."""
     plain = unicodedata.normalize("NFKD", word.replace("’", "'").lower())
     plain = "".join(c for c in plain if not unicodedata.combining(c))

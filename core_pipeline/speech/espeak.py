@@ -6,9 +6,6 @@ those of the sound, so picture and sound agree to the sample.
 
 from __future__ import annotations
 
-import contextlib
-import json
-import subprocess
 import sys
 import threading
 import weakref
@@ -23,14 +20,27 @@ import numpy as np
 from ..errors import UserError
 from ..phonemes import SILENCE
 from ..schedule import Schedule
+from . import mandarin
+from .child_process import ChildProcess
 from .espeak_phones import Mark, settled, to_phones
 from .sentence import Sentence, shortened, tokens
 from .utterance import Audio, Utterance, Word
 
 #: Voice → what to call it.
-VOICES: Mapping[str, str] = MappingProxyType({"en-us": "American English", "gmw/en": "British English"})
+VOICES: Mapping[str, str] = MappingProxyType(
+    {
+        "en-us": "American English",
+        "gmw/en": "British English",
+        "en-us+f3": "American English, higher voice",
+        "gmw/en+f3": "British English, higher voice",
+    }
+)
+#: All of them, with those of other languages.
+ALL_VOICES: Mapping[str, str] = MappingProxyType({**VOICES, mandarin.VOICE: "Mandarin"})
 #: Words per minute that espeak can speak.
 SLOWEST, FASTEST = 80, 450
+#: espeak's own pitch; it goes from 0 to 99.
+PITCH = 50
 #: Silence added around the sound, in seconds: time for the lips to take the first shape and leave the last.
 LEAD, TAIL = 0.1, 0.2
 #: Samples kept in the cache, over all utterances: about eight minutes.
@@ -54,10 +64,10 @@ class Espeak:
         self._command = [sys.executable, "-P", str(_PROGRAM), library, data]
         self._timeout = timeout
         self._lock = threading.Lock()
-        self._process: _Process | None = None
+        self._process: ChildProcess | None = None
         self._missing = ""
         self._closed = False
-        self._cache: OrderedDict[tuple[str, str, int], Utterance] = OrderedDict()
+        self._cache: OrderedDict[tuple[str, str, int, int], Utterance] = OrderedDict()
 
     @property
     def process_id(self) -> int | None:
@@ -76,17 +86,20 @@ class Espeak:
         if process := self._process:
             process.stop()
 
-    def speak(self, sentence: Sentence, voice: str = "en-us", rate: int = 175) -> Utterance:
+    def speak(self, sentence: Sentence, voice: str = "en-us", rate: int = 175, pitch: int = PITCH) -> Utterance:
         """The sentence as sound and phones.
 
-        rate  words per minute, 80…450
-        UserError for an unknown voice, an impossible rate, or when nothing is heard; NoVoice without espeak.
+        rate   words per minute, 80…450
+        pitch  0…99
+        UserError for an unknown voice, an impossible rate or pitch, or when nothing is heard; NoVoice without espeak.
         """
-        if voice not in VOICES:
-            raise UserError(f"There is no voice {voice!r}: choose one of {', '.join(VOICES)}.")
+        if voice not in ALL_VOICES:
+            raise UserError(f"There is no voice {voice!r}: choose one of {', '.join(ALL_VOICES)}.")
         if not SLOWEST <= rate <= FASTEST:
             raise UserError(f"A rate of {rate} words per minute cannot be spoken: choose {SLOWEST} to {FASTEST}.")
-        key = (sentence.text, voice, rate)
+        if not 0 <= pitch <= 99:
+            raise UserError(f"A pitch of {pitch} cannot be spoken: choose 0 to 99.")
+        key = (sentence.text, voice, rate, pitch)
         with self._lock:
             if (found := self._cache.get(key)) is None:
                 found = self._cache[key] = self._utter(*key)
@@ -97,8 +110,8 @@ class Espeak:
             return found
         return Utterance(found.text, found.schedule, found.audio, found.words, sentence.notes + found.notes)
 
-    def _utter(self, text: str, voice: str, rate: int) -> Utterance:
-        request = {"text": text, "voice": voice, "rate": rate}
+    def _utter(self, text: str, voice: str, rate: int, pitch: int) -> Utterance:
+        request: dict[str, object] = {"text": text, "voice": voice, "rate": rate, "pitch": pitch}
         try:
             answer, sound = self._running().ask(request, self._timeout)
         except EOFError:  # it died, now or since the last sentence: once more with a new one
@@ -112,7 +125,7 @@ class Espeak:
             raise NoVoice(f"espeak-ng cannot speak this: {problem}")
         return _utterance(text, voice, answer, sound, self._rate)
 
-    def _running(self) -> _Process:
+    def _running(self) -> ChildProcess:
         """The process, started if need be."""
         if self._closed:
             raise NoVoice("the voice was closed")
@@ -123,7 +136,7 @@ class Espeak:
         if self._process:
             self._process.stop()
         try:
-            self._process = _Process(self._command)
+            self._process = ChildProcess(self._command)
             weakref.finalize(self, self._process.stop)  # at the latest when Python ends
             greeting, _ = self._process.receive(self._timeout)
         except (OSError, EOFError) as error:
@@ -137,86 +150,27 @@ class Espeak:
         return self._process
 
 
-class _Process:
-    """The running program and its pipes. EOFError when it ended before its answer was complete."""
-
-    def __init__(self, command: list[str]) -> None:
-        self._popen = subprocess.Popen(
-            command,
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
-            creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
-        )
-        self._ending = threading.Lock()
-
-    @property
-    def id(self) -> int:
-        return self._popen.pid
-
-    @property
-    def alive(self) -> bool:
-        return self._popen.poll() is None
-
-    def ask(self, request: dict[str, object], timeout: float) -> tuple[dict[str, Any], bytes]:
-        """One sentence; `timeout` in seconds, after which the process is killed."""
-        stdin = self._popen.stdin
-        assert stdin is not None
-        body = json.dumps(request).encode()
-        try:
-            stdin.write(len(body).to_bytes(4, "little") + body)
-            stdin.flush()
-        except (OSError, ValueError) as error:  # the pipe is broken, or closed by stop()
-            raise EOFError(str(error)) from None
-        return self.receive(timeout)
-
-    def receive(self, timeout: float) -> tuple[dict[str, Any], bytes]:
-        """The next answer."""
-        watch = threading.Timer(timeout, self._popen.kill)  # works for pipes of every system
-        watch.daemon = True
-        watch.start()
-        try:
-            size = int.from_bytes(self._read(4), "little")
-            answer: dict[str, Any] = json.loads(self._read(size))
-            return answer, self._read(2 * answer.get("samples", 0))
-        finally:
-            watch.cancel()
-
-    def _read(self, size: int) -> bytes:
-        stdout = self._popen.stdout
-        assert stdout is not None
-        try:
-            data = stdout.read(size)
-        except (OSError, ValueError) as error:
-            raise EOFError(str(error)) from None
-        if len(data) < size:
-            raise EOFError("its process ended")
-        return data
-
-    def stop(self) -> None:
-        """End it and close the pipes; again does nothing. Never waits for a sentence."""
-        with self._ending:
-            self._popen.kill()
-            self._popen.wait()
-            for pipe in (self._popen.stdin, self._popen.stdout):
-                assert pipe is not None
-                with contextlib.suppress(OSError):  # unsent bytes for a dead process
-                    pipe.close()
-
-
 def _utterance(text: str, voice: str, answer: Mapping[str, Any], sound: bytes, rate: int) -> Utterance:
     lead = round(LEAD * rate)
     samples = np.pad(np.frombuffer(sound, "<i2"), (lead, round(TAIL * rate)))
     end = samples.size / rate
     marks: list[Mark] = [(str(name), (at + lead) / rate) for name, at in answer["phones"]]
-    phones = to_phones(settled(marks, samples, rate), end, british=voice != "en-us")
+    spoken = [(int(position), (at + lead) / rate) for position, _, at in answer["words"]]
+    chinese = voice == mandarin.VOICE
+    if chinese:
+        marks = [mark for mark in marks if mark[0] != mandarin.SYLLABLE_END]
+    marks = settled(marks, samples, rate)
+    if chinese:
+        phones = mandarin.to_mandarin(marks, end, spoken, text)
+    else:
+        phones = to_phones(marks, end, british=not voice.startswith("en-us"))
     if all(phone == SILENCE for phone in phones.schedule.phones):
         raise UserError(f"Nothing in “{shortened(text)}” can be spoken: type at least one word.")
     notes = [f"The sound {name!r} of the voice is unknown and became silence." for name in phones.unknown]
     audio = Audio(samples.astype(np.float32) / np.float32(32768), rate)
     audio.samples.flags.writeable = False
-    spoken = [(int(position), (at + lead) / rate) for position, _, at in answer["words"]]
-    return Utterance(text, phones.schedule, audio, _words(text, spoken, phones.schedule), tuple(notes))
+    words = (mandarin.words if chinese else _words)(text, spoken, phones.schedule)
+    return Utterance(text, phones.schedule, audio, words, tuple(notes))
 
 
 def _words(text: str, spoken: list[tuple[int, float]], schedule: Schedule) -> tuple[Word, ...]:

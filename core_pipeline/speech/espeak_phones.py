@@ -5,7 +5,7 @@ Measured over the 117,493 plain words of CMUdict: no name of the American or Bri
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +16,7 @@ from ..schedule import SHORTEST, Schedule
 
 #: The mnemonic's mark and the second at which it stands.
 Mark = tuple[str, float]
+Find = Callable[[str], tuple[str, ...] | None]
 
 _ONE = """
 ax @ @2 @5 @- @# a# a#2 0#
@@ -89,14 +90,15 @@ aw,ax aU@
 FIRST = 0.6
 
 
-def _table(text: str) -> dict[str, tuple[str, ...]]:
+def table(text: str) -> dict[str, tuple[str, ...]]:
+    """Lines "ours theirs theirs …" → theirs: ours; "aa,r" is two phones."""
     rows = (line.split() for line in text.split("\n") if line)
     return {name: tuple(row[0].split(",")) for row in rows for name in row[1:]}
 
 
 #: espeak mnemonic → one or two phones.
-AMERICAN = _table(_ONE + _TWO)
-BRITISH = AMERICAN | _table(_BRITISH)
+AMERICAN = table(_ONE + _TWO)
+BRITISH = AMERICAN | table(_BRITISH)
 
 _STRESS = "',"
 _LIQUIDS = (("l",), ("r",))
@@ -155,11 +157,14 @@ def _is_pause(mnemonic: str) -> bool:
     return mnemonic.strip(_STRESS) in _PAUSES
 
 
-def to_phones(marks: Sequence[Mark], end: float, british: bool = False) -> Phones:
+def to_phones(marks: Sequence[Mark], end: float, british: bool = False, find: Find | None = None) -> Phones:
     """Marks with rising times → a schedule from 0 to `end` seconds, where every phone has a length.
 
     What comes before the first mark is silence; neighbouring silences are one.
+
+    find  another language's `phones_of`
     """
+    find = find or (lambda name: phones_of(name, british))
     phones: list[str] = []
     starts: list[float] = []
     unknown: dict[str, None] = {}
@@ -173,14 +178,14 @@ def to_phones(marks: Sequence[Mark], end: float, british: bool = False) -> Phone
             starts.append(start)
 
     add(SILENCE, 0.0)
-    sounding = [(name, time) for name, time in marks if phones_of(name, british) != ()]
+    sounding = [(name, time) for name, time in marks if find(name) != ()]
     for i, (name, time) in enumerate(sounding):
-        found = phones_of(name, british)
+        found = find(name)
         if not found:
             unknown[name.strip(_STRESS)] = None
             found = (SILENCE,)
         following, stop = sounding[i + 1] if i + 1 < len(sounding) else ("", end)
-        if found[-1] == "r" and phones_of(following, british) == ("r",):
+        if found[-1] == "r" and find(following) == ("r",):
             found = found[:1]
         add(found[0], time)
         if len(found) == 2:

@@ -3,7 +3,7 @@
 It is started by espeak.py and never imported by the editor: espeak-ng is GPL-3, has global state and
 may crash in C, so it lives and dies here. Nothing but the standard library and espeakng_loader.
 
-    request   length (4 bytes, little endian), JSON {"text", "voice", "rate"}
+    request   length (4 bytes, little endian), JSON {"text", "voice", "rate", "pitch"}
     answer    length (4 bytes), JSON, then 2·"samples" bytes: mono int16, little endian
     greeting  one answer without samples when the library is ready: {"rate"} or {"error"}
 
@@ -25,7 +25,7 @@ SYNCHRONOUS = 2
 PHONEME_EVENTS, DONT_EXIT = 0x1, 0x8000
 WORD, END, PHONEME = 1, 5, 7
 POSITION_CHARACTER, UTF8 = 1, 1
-RATE = 1
+RATE, PITCH = 1, 3
 
 
 class Name(ctypes.Union):
@@ -76,11 +76,12 @@ class Voice:
         self._callback = Callback(self._collect)  # kept alive as long as the library may call it
         self._lib.espeak_SetSynthCallback(self._callback)
 
-    def speak(self, text: str, voice: str, rate: int) -> tuple[dict[str, object], bytes]:
+    def speak(self, text: str, voice: str, rate: int, pitch: int) -> tuple[dict[str, object], bytes]:
         """Answer and sound."""
         if self._lib.espeak_SetVoiceByName(voice.encode()) != 0:
             return {"error": f"it has no voice {voice!r}"}, b""
         self._lib.espeak_SetParameter(RATE, rate, 0)
+        self._lib.espeak_SetParameter(PITCH, pitch, 0)
         self._sound, self._phones, self._words = bytearray(), [], []
         data = text.encode() + b"\0"
         if self._lib.espeak_Synth(data, len(data), 0, POSITION_CHARACTER, 0, UTF8, None, None) != 0:
@@ -135,7 +136,7 @@ def main(library: str = "", data: str = "") -> int:
         send(answers, {"rate": voice.rate})
         while head := requests.read(4):
             request = json.loads(requests.read(int.from_bytes(head, "little")))
-            send(answers, *voice.speak(request["text"], request["voice"], request["rate"]))
+            send(answers, *voice.speak(request["text"], request["voice"], request["rate"], request["pitch"]))
     return 0
 
 

@@ -10,6 +10,7 @@ from ..errors import UserError
 
 #: Characters; about five minutes of speech.
 LONGEST = 5000
+FOREIGN = "Letters of another alphabet are not spoken as its readers would."
 
 
 @dataclass(frozen=True)
@@ -40,7 +41,7 @@ def clean(text: str) -> Sentence:
             "speak it in several parts."
         )
     if any(c.isalpha() and not unicodedata.name(c, "LATIN").startswith(("LATIN", "FULLWIDTH LATIN")) for c in kept):
-        notes.append("Letters of another alphabet are not spoken as its readers would.")
+        notes.append(FOREIGN)
     return Sentence(kept, tuple(notes))
 
 

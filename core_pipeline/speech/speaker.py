@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cache
 
+from . import mandarin
 from .dictionary import Dictionary, installed
-from .espeak import Espeak, NoVoice
-from .sentence import clean
+from .espeak import PITCH, Espeak, NoVoice
+from .sentence import FOREIGN, Sentence, clean
 from .utterance import Utterance
 
 
@@ -28,18 +29,27 @@ class Speaker:
         except NoVoice:
             self._silent()
 
-    def speak(self, text: str, voice: str = "en-us", rate: int = 175) -> Utterance:
+    @property
+    def espeak(self) -> Espeak:
+        """The voice itself."""
+        return self._espeak
+
+    def speak(self, text: str, voice: str = "en-us", rate: int = 175, pitch: int = PITCH) -> Utterance:
         """Sound, phones and words of a text of any number of sentences.
 
-        voice  one of espeak.VOICES
+        voice  one of espeak.ALL_VOICES
         rate   words per minute, 80…450
-        UserError when there is nothing to say, the text is too long, or voice or rate do not exist.
+        pitch  0…99
+        UserError when there is nothing to say, the text is too long, or voice, rate or pitch do not exist.
         """
         sentence = clean(text)
+        chinese = voice == mandarin.VOICE
+        if chinese:
+            sentence = Sentence(sentence.text, tuple(note for note in sentence.notes if note != FOREIGN))
         try:
-            return self._espeak.speak(sentence, voice, rate)
+            return self._espeak.speak(sentence, voice, rate, pitch)
         except NoVoice as reason:
-            silent = self._silent().speak(sentence, rate)
+            silent = mandarin.silent(sentence.text, rate) if chinese else self._silent().speak(sentence, rate)
             return replace(silent, notes=(f"There is no sound: {reason}.", *silent.notes))
 
     def close(self) -> None:
@@ -55,6 +65,6 @@ def _shared() -> Speaker:
     return Speaker()
 
 
-def speak(text: str, voice: str = "en-us", rate: int = 175) -> Utterance:
+def speak(text: str, voice: str = "en-us", rate: int = 175, pitch: int = PITCH) -> Utterance:
     """`Speaker.speak` with a process that stays warm until Python ends; for scripts and the command line."""
-    return _shared().speak(text, voice, rate)
+    return _shared().speak(text, voice, rate, pitch)

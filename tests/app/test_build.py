@@ -53,7 +53,7 @@ def test_without_names_all_are_built(tmp_path, capsys, monkeypatch):
     [
         (["build-faces", "carb"], "“carb” is none of our characters; choose from toon, ada, woman, man, crab."),
         (["build-faces", "crab", "--out", "file/faces"], "cannot be written"),
-        (["build-curves", "englisch"], "There is no recipe “englisch”: name crab, english, or a file"),
+        (["build-curves", "englisch"], "There is no recipe “englisch”: name crab, english, mandarin, or a file"),
         (["build-curves", "mine.json"], "There is no recipe “mine.json”"),
         (["build-curves", "none.toml"], "none.toml cannot be read"),
     ],

@@ -101,6 +101,59 @@ def test_other_curves_may_be_named_for_a_character_with_its_own(tmp_path, capsys
     assert "Not available on this face: open, W" in capsys.readouterr().err
 
 
+def pictures_of(tmp_path: Path, *options: str, size: str = "192x64") -> np.ndarray:
+    """(n, h, w, 3) of the frames of a short word."""
+    folder = tmp_path / "-".join(option.strip("-") for option in ("frames", *options))
+    assert main(["render", "Papa!", "--out", str(folder), "--size", size, "--fps", "6", *options]) == 0
+    return np.stack([np.asarray(Image.open(file)) for file in sorted(folder.glob("*.png"))]).astype(int)
+
+
+def test_faces_side_by_side_say_the_same_each_as_it_can(tmp_path, capsys):
+    cast = ["--face", "toon", "--face", "man", "--face", "crab"]
+    together = pictures_of(tmp_path, *cast, "--still")
+    assert "each speaks with its own curves (english.json, crab.json)" in capsys.readouterr().err
+    thirds = [together[:, :, 64 * i : 64 * (i + 1)] for i in range(3)]
+    for third in thirds:
+        assert np.ptp(third, axis=0).max() > 60, "each of them speaks"
+    assert np.abs(thirds[0] - thirds[1]).mean() > 5, "and they are not the same"
+    blinking = pictures_of(tmp_path, *cast)
+    assert blinking.shape == together.shape
+
+
+def test_a_face_that_cannot_make_the_poses_named_says_so_by_name(tmp_path, capsys):
+    options = ["--face", "toon", "--face", "crab", "--curves", str(Path("assets/curves/english.json").resolve())]
+    frames = pictures_of(tmp_path, *options, "--still")
+    assert "Crab: Not available on this face: open, W" in capsys.readouterr().err
+    assert np.ptp(frames[:, :, :96], axis=0).max() > 60
+    assert np.ptp(frames[:, :, 96:], axis=0).max() == 0
+
+
+def test_four_faces_are_refused(tmp_path, capsys):
+    out = str(tmp_path / "clip.mp4")
+    assert main(["render", "Hi.", "--out", out, *["--face", "toon"] * 4]) == 2
+    assert "4 faces do not fit side by side: name --face 3 times at most." in capsys.readouterr().err
+
+
+def test_looks_and_cameras_may_be_named(tmp_path):
+    green = pictures_of(tmp_path, "--background", "green", size="64x64")
+    assert (green[:, 0, 0] == (0, 177, 64)).all()
+    seen = {
+        option: pictures_of(tmp_path, *option, "--still", size="64x64")[0]
+        for option in ((), ("--light", "right"), ("--camera", "profile"), ("--background", "night"))
+    }
+    first = seen.pop(())
+    for option, picture in seen.items():
+        assert np.abs(picture - first).mean() > 3, option
+
+
+def test_on_the_turntable_the_face_turns_by_the_clips_time(tmp_path):
+    turning = pictures_of(tmp_path, "--turntable", "--still", size="64x64")
+    standing = pictures_of(tmp_path, "--still", size="64x64")
+    apart = np.abs(turning - standing).mean(axis=(1, 2, 3))
+    assert apart[0] == 0
+    assert apart[-1] > 2
+
+
 def test_without_sound_the_clip_is_silent(tmp_path):
     clip = tmp_path / "clip.mp4"
     with Mp4(clip, (64, 64), 29.97, None) as writing:

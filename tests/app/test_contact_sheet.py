@@ -5,10 +5,10 @@ import pytest
 from PIL import Image
 
 from app.cli import main
-from app.command_line.contact_sheet import TONGUE_OPEN, poses_of, sheet
+from app.command_line.contact_sheet import poses_of, sheet
 from app.resources import face_folder
 from app.rigs import open_rig
-from core_pipeline.poses import FACEFX
+from core_pipeline.poses import FACEFX, TONGUE_OPEN
 from tests.helpers.rigs import NAMES, as_glb, head
 
 
@@ -33,6 +33,29 @@ def test_every_pose_of_the_crab_is_drawn_from_two_sides(tmp_path, capsys):
     for row in range(4):
         label = page[72 + row * 128 + 80 : 72 + row * 128 + 110]
         assert (label.min(axis=-1) > 180).sum() > 60, "names are written under the pictures"
+
+
+def test_all_our_characters_on_one_page(tmp_path, capsys):
+    out = tmp_path / "all.png"
+    assert main(["contact-sheet", "all", "--out", str(out), "--size", "64x64"]) == 0
+    assert capsys.readouterr() == (f"5 faces in {out}\n", "")
+    with Image.open(out) as picture:
+        assert picture.size == (10 * 68 - 4, 5 * 90)
+        page = np.asarray(picture.convert("RGB"), int)
+    for row in range(5):
+        cells = {page[90 * row : 90 * row + 64, 68 * x : 68 * x + 64].tobytes() for x in range(10)}
+        assert len(cells) == 10, "no two poses look alike, those of the tongue neither"
+        label = page[90 * row + 64 : 90 * row + 90]
+        assert (label.min(axis=-1) > 120).sum() > 60
+
+
+def test_portraits_of_all(tmp_path):
+    out = tmp_path / "faces.png"
+    assert main(["contact-sheet", "all", "--portraits", "--out", str(out), "--size", "80x64"]) == 0
+    with Image.open(out) as picture:
+        assert picture.size == (5 * 80, 64)
+        page = np.asarray(picture.convert("RGB"), int)
+    assert (page[:, -80:, 0] > page[:, -80:, 2] + 100).mean() > 0.1, "the crab comes last"
 
 
 def test_what_is_shown_of_a_face():
@@ -68,6 +91,7 @@ def test_long_names_stay_under_their_own_pictures():
     ("options", "told"),
     [
         (["toon", "--out", "sheet.jpg"], "name the picture .png"),
+        (["toon", "--out", "sheet.png", "--portraits"], "write contact-sheet all --portraits"),
         (["toon", "--out", "sheet.png", "--size", "8192x8192"], "12 poses that large are no picture any more"),
         (["nobody", "--out", "sheet.png"], "There is no face “nobody”"),
         (["toon", "--out", "sheet.png", "--curves", "none.json"], "Cannot read none.json"),

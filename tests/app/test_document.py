@@ -1,6 +1,7 @@
 """The document: edits are steps, undo brings the very same objects back, a failed save loses nothing."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,7 @@ from core_pipeline.curves import Curve
 from core_pipeline.errors import UserError
 from core_pipeline.files import curve_set_json
 from core_pipeline.settings import Settings
+from tests.helpers import stages as small
 
 F_AH = ("f", "ah")
 LOW, HIGH = Curve.of([(0, 0), (0.5, 0.2), (1, 0)]), Curve.of([(0, 0), (0.5, 0.9), (1, 0)])
@@ -250,3 +252,31 @@ def test_recovered_work_knows_its_file_and_is_not_saved(document: Document, tmp_
     document.save()
     assert curve_set_json.load(path).name == "Rescued"
     assert not document.is_dirty
+
+
+def test_many_bigrams_are_one_step_and_the_same_objects_come_back(qtbot: QtBot) -> None:
+    document = Document(small.curve_set())
+    before = dict(document.curve_set.bigrams)
+    new = {("f", "ah"): Bigram(status="review"), ("sil", "ah"): Bigram({"open": Curve.of([(0, 0), (1, 1)])})}
+    with qtbot.waitSignal(document.bigrams_changed):
+        document.put_bigrams(new, "Fill")
+    assert document.undo_stack.count() == 1
+    assert all(document.curve_set.bigrams[pair] is bigram for pair, bigram in new.items())
+    document.undo_stack.undo()
+    assert document.curve_set.bigrams.keys() == before.keys()
+    assert all(document.curve_set.bigrams[pair] is bigram for pair, bigram in before.items())
+    document.put_bigrams({}, "Nothing")
+    assert document.undo_stack.count() == 1  # what was undone can still be done again
+    document.read_only_reason = "Written by a newer Lipstitch."
+    for act in (lambda: document.put_bigrams(new, "Fill"), lambda: document.put_bigram(("f", "ah"), Bigram(), "Put")):
+        with pytest.raises(UserError, match="newer"):
+            act()
+
+
+def test_a_whole_bigram_is_put_with_its_status() -> None:
+    document = Document(small.curve_set())
+    approved = replace(document.curve_set.bigrams["f", "ah"], status="approved")
+    document.put_bigram(("f", "ah"), approved, "Approve")
+    assert document.curve_set.bigrams["f", "ah"] is approved
+    with pytest.raises(UserError, match="is not a bigram of this set"):
+        document.put_bigram(("f", "?"), approved, "Approve")

@@ -207,3 +207,60 @@ def test_the_picture_follows_the_sound_not_the_machine(qtbot, clock):
     assert player.time == pytest.approx(0.55)
     player.pause()
     output.close()
+
+
+# Scrubbing
+
+
+@pytest.fixture
+def loud(qtbot, clock):
+    output = AudioOutput()
+    player = Player(output, clock)
+    player.set_utterance(2.0, Audio(np.zeros(2000, np.float32), 1000))
+    yield player
+    player.pause()
+    output.close()
+
+
+def _sounding(player) -> float | None:
+    """Where the sound began that is being played, None in silence."""
+    playback = player._output._playback
+    return None if playback is None else playback.start
+
+
+def test_a_moment_scrubbed_over_is_heard_shortly(loud, qtbot):
+    times = _heard(loud.time_changed)
+    loud.scrub(0.5)
+    assert times == [0.5]
+    assert _sounding(loud) == 0.5
+    assert not loud.playing
+    qtbot.waitUntil(lambda: _sounding(loud) is None)
+    assert loud.time == 0.5
+
+
+def test_while_the_hand_goes_on_moments_follow_one_another_and_the_last_is_where_it_stopped(loud, qtbot):
+    loud.scrub(0.5)
+    for time in (0.6, 0.7, 0.9):
+        loud.scrub(time)
+        assert _sounding(loud) == 0.5  # none is cut off before it can be heard
+    qtbot.waitUntil(lambda: _sounding(loud) == 0.9)
+    qtbot.waitUntil(lambda: _sounding(loud) is None)
+
+
+def test_scrubbing_while_it_plays_only_seeks_and_playing_ends_a_moment(loud, qtbot):
+    loud.scrub(0.5)
+    loud.play()
+    loud.scrub(1.0)
+    assert loud.playing
+    assert _sounding(loud) == 1.0
+    qtbot.waitUntil(lambda: not loud._grain.isActive())
+    assert _sounding(loud) == 1.0
+
+
+def test_another_utterance_ends_the_moment_at_once(loud):
+    loud.scrub(0.5)
+    loud.set_utterance(1.0, None)
+    assert _sounding(loud) is None
+    assert not loud._grain.isActive()
+    loud.scrub(0.2)  # there is no sound to hear
+    assert _sounding(loud) is None

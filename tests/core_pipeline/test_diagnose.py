@@ -114,7 +114,7 @@ def test_a_curve_cut_by_a_constraint_is_told_with_the_share_of_its_area_and_what
     assert found.amount == pytest.approx(1 - left, abs=0.01)
     assert (found.pose, found.other) == ("open", "FV")
     assert 0.3 < found.time < 0.7
-    assert found.reason == f"constraint takes {100 * (1 - left):.0f} % of open, for FV"
+    assert found.reason == f"FV takes {100 * (1 - left):.0f} % of open"
     assert only(curve_set, "f ah", 0.5, "slowed") == []  # the speed limit is not to blame
     a_little = one(("f", "ah"), Settings.paper(), open=HILL, FV=[(0.4, 0), (0.5, 0.6), (0.6, 0)])
     assert CLIPPED > 0.5
@@ -130,7 +130,7 @@ def test_lips_that_do_not_close_are_told_with_how_far_they_get_and_the_pair_that
     assert found.pair == ("ah", "bmp")
     assert found.amount == pytest.approx(0.4 / 0.8, abs=0.02)
     assert 0.3 < found.time < 0.45
-    assert found.reason == "closure not reached: PBM gets to 50 % of its usual height"
+    assert found.reason == "not closed: PBM reaches 50 % of its usual height"
     assert only(english, "sil ah bmp ah sil", 0.15, "closure") == []
 
 
@@ -156,7 +156,7 @@ def test_a_pose_that_turns_too_often_inside_one_bigram_trembles() -> None:
     teeth = [(0, 0), (0.2, 0.6), (0.4, 0.2), (0.6, 0.6), (0.8, 0.2), (0.9, 0.5), (1, 0)]
     (found,) = only(one(("w", "ah"), W=teeth), "w ah", 0.5, "jitter")
     assert (found.pose, found.amount, found.time) == ("W", 5.0, pytest.approx(0.5))
-    assert found.reason == "jitter: W turns 5 times"
+    assert found.reason == "jitter: W turns 5×"
     calm = [(0, 0), (0.2, 0.6), (0.4, 0.59), (0.6, 0.6), (0.8, 0.59), (0.9, 0.6), (1, 0)]
     assert only(one(("w", "ah"), W=calm), "w ah", 0.5, "jitter") == []
 

@@ -6,18 +6,24 @@ import pytest
 
 from core_pipeline.curve_set import Bigram, CurveSet
 from core_pipeline.curves import Curve
-from core_pipeline.phone_classes import BY_FREQUENCY, CLASSES, by_class, by_frequency, distance, similar_bigrams
+from core_pipeline.phone_classes import CLASSES, by_class, by_frequency, distance, similar_bigrams
 from core_pipeline.phonemes import COMMON, TABLE_1
 
 DRAWN = Bigram({"open": Curve.of([(0, 0), (0.5, 1), (1, 0)])})
 
 
-def test_every_common_phone_is_in_one_class_and_has_a_frequency():
+SHARES = {("d", "ah"): 0.5, ("ah", "f"): 0.3, ("d", "oy"): 0.2}
+
+
+def frequent(phones):
+    return by_frequency(phones, SHARES)
+
+
+def test_every_common_phone_is_in_one_class():
     assert sorted(phone for group in CLASSES for phone in group) == sorted(COMMON)
-    assert sorted(BY_FREQUENCY) == sorted(COMMON)
 
 
-@pytest.mark.parametrize("order", [by_class, by_frequency])
+@pytest.mark.parametrize("order", [by_class, frequent])
 @pytest.mark.parametrize("phones", [COMMON, tuple(TABLE_1), (), ("ü", "ah", "xx", "d")])
 def test_an_order_keeps_every_phone_once(order, phones):
     assert sorted(order(phones)) == sorted(phones)
@@ -26,7 +32,8 @@ def test_an_order_keeps_every_phone_once(order, phones):
 
 def test_phones_of_no_class_come_last():
     assert by_class(("ü", "bmp", "ah")) == ("ah", "bmp", "ü")
-    assert by_frequency(("ü", "oy", "d")) == ("d", "oy", "ü")
+    assert frequent(("ü", "oy", "d", "f", "ah")) == ("ah", "d", "f", "oy", "ü")
+    assert by_frequency(COMMON, {}) == COMMON
 
 
 def test_distance_is_a_distance():

@@ -73,6 +73,10 @@ def test_a_renamed_phoneme_keeps_everything(english: CurveSet) -> None:
     assert new.phoneme_map["m"] == "lips"
     assert final(new) == final(english)
     assert renamed(new, "lips", "bmp").bigrams == english.bigrams
+    change = change_of(english, new)
+    assert (change.added, change.gone) == (("lips",), ("bmp",))
+    assert len(change.moved) == 43
+    assert change.copied == change.blank == change.aside == ()
 
 
 @pytest.mark.parametrize(

@@ -191,11 +191,11 @@ def test_space_in_the_canvas_plays_the_bigram_alone(editor: Editor, qtbot: QtBot
 
 
 def test_playing_without_a_device_moves_playhead_and_face(editor: Editor, qtbot: QtBot) -> None:
-    speak(editor, qtbot, "Fat cats often find fish.")
     times: list[float] = []
+    speak(editor, qtbot, "Fat cats often find fish.")
+    assert editor.preview.player.playing
     with qtbot.waitSignals([editor.preview.frame_ready] * 3, timeout=20_000):
         editor.preview.sentence_moment.connect(times.append)
-    assert editor.preview.player.playing
     qtbot.waitUntil(lambda: len(times) > 3, timeout=20_000)
     assert times == sorted(times)
 

@@ -51,8 +51,11 @@ def visible_triangles(
     local = (deformed(face, weights).astype(float) - centre) @ (turn_x @ turn_y).T
     local[:, :2] = (local[:, :2] / half + 1) * SIZE / 2
     # what lies deeper than any mouth is behind the face, and hidden by it
-    numbers = np.flatnonzero(local[face.triangles, 2].max(1) > -DEEPEST)
-    corners = local[face.triangles[numbers]]
+    corners = local[face.triangles]
+    flat = corners[..., :2]
+    inside = ((flat.max(1) > 0) & (flat.min(1) < SIZE)).all(1) & (corners[..., 2].max(1) > -DEEPEST)
+    numbers = np.flatnonzero(inside)
+    corners = corners[numbers]
     which, pixel, depth = _covered(corners)
     order = np.argsort(depth, kind="stable")
     nearest = np.full(SIZE * SIZE, -1)

@@ -37,6 +37,8 @@ class CanvasHeader(QWidget):
 
     snap_toggled = Signal(bool)
     polygon_toggled = Signal(bool)
+    #: The open bigram shall be as the set below has it.
+    revert_wanted = Signal()
     #: One of the canvas' actions, as keymaps name them.
     action_wanted = Signal(str)
 
@@ -46,6 +48,8 @@ class CanvasHeader(QWidget):
         self._word, self._span = "", (0, 0)
         self._used: int | None = None
         self._status = ""
+        self._spent = ""
+        self._layer = ""
         self._title = QLabel()
         self._title.setFont(theme.font(15, bold=True))
         self._title.setAccessibleName(self.tr("Open bigram"))
@@ -62,6 +66,9 @@ class CanvasHeader(QWidget):
             "vector-polyline", self.tr("Show the straight lines between keys"), self.polygon_toggled
         )
         self._polygon.setChecked(True)
+        self._revert = self._button("backup-restore", self.tr("Revert to base"))
+        self._revert.clicked.connect(lambda _=False: self.revert_wanted.emit())
+        self._revert.hide()
         self._actions: dict[str, QToolButton] = {}
         for action, icon, tip in _ACTIONS:
             button = self._actions[action] = self._button(icon, self.tr(tip))
@@ -72,6 +79,7 @@ class CanvasHeader(QWidget):
         layout.addWidget(self._title)
         layout.addSpacing(8)
         layout.addWidget(self._detail, 1)
+        layout.addWidget(self._revert)
         for button in self.buttons:
             layout.addWidget(button)
 
@@ -97,18 +105,38 @@ class CanvasHeader(QWidget):
 
     def set_example(self, word: str, span: tuple[int, int] = (0, 0)) -> None:
         """A word with this bigram, "" for none; the letters from span[0] to before span[1] are highlighted."""
-        self._word, self._span = word, span
-        self._show()
+        if (word, span) != (self._word, self._span):
+            self._word, self._span = word, span
+            self._show()
 
     def set_usage(self, count: int | None) -> None:
         """How often the sentence uses the bigram; None when there is no sentence."""
-        self._used = count
-        self._show()
+        if count != self._used:
+            self._used = count
+            self._show()
 
     def set_status(self, status: str) -> None:
         """How far the work has come, as a word to show."""
-        self._status = status
+        if status != self._status:
+            self._status = status
+            self._show()
+
+    def set_time_spent(self, text: str) -> None:
+        """How long the user has worked on the bigram, shown where there is room for it."""
+        if text != self._spent:
+            self._spent = text
+            self._show()
+
+    def set_layer(self, text: str, own: bool) -> None:
+        """Which layer the bigram comes from, "" where there is only one; its own one can be reverted."""
+        self._layer = text
+        self._revert.setVisible(own)
         self._show()
+
+    @property
+    def revert(self) -> QToolButton:
+        """The button that goes back to the set below."""
+        return self._revert
 
     def set_snap(self, on: bool) -> None:
         """Whether keys keep to the grid."""
@@ -161,6 +189,8 @@ class CanvasHeader(QWidget):
             parts.append((used, escape(used)))
         if self._status:
             parts.append((self._status, escape(self._status)))
+        if self._layer:
+            parts.append((self._layer, escape(self._layer)))
         return parts
 
     def _show(self) -> None:
@@ -171,6 +201,9 @@ class CanvasHeader(QWidget):
         parts = self._parts()
         if self._length(parts) > room:
             parts = self._parts(short=True)
+        spent = (self._spent, f'<span style="color:{theme.FAINT.name()}">{escape(self._spent)}</span>')
+        if self._spent and self._length([*parts, spent]) <= room:
+            parts.append(spent)
         while parts and self._length(parts) > room:
             parts.pop(0)
         self._detail.setText(_GAP.join(rich for _, rich in parts))

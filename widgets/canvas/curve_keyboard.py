@@ -14,7 +14,7 @@ _Held = Qt.KeyboardModifier
 HELD = (_Key.Key_Shift, _Key.Key_Control, _Key.Key_Alt)
 
 #: These may stand on Shift or AltGr, depending on the keyboard.
-_SYMBOLS = ("\\", "/", ",", ".")
+_SYMBOLS = ("\\", "/", "[", "]")
 
 
 def modifiers_of(held: Qt.KeyboardModifier) -> Modifiers:

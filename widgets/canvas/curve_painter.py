@@ -112,7 +112,8 @@ class CurveItem(pg.GraphicsObject):
         painter.drawText(right, Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter, second)
 
     def _paint_empty(self, painter: QPainter, area: QRectF) -> None:
-        how = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
+        where = Qt.AlignmentFlag.AlignTop if self.ghost else Qt.AlignmentFlag.AlignVCenter  # not over the ghost
+        how = where | Qt.AlignmentFlag.AlignHCenter | Qt.TextFlag.TextWordWrap
         room = painter.boundingRect(area.adjusted(20, 20, -20, -20), how, self.empty_text)
         painter.fillRect(room.adjusted(-10, -6, 10, 6), theme.BACKGROUND)
         painter.setPen(theme.MUTED)
@@ -123,6 +124,9 @@ class CurveItem(pg.GraphicsObject):
         painter.setPen(QPen(_GHOST, 1))
         for pose, curve in self.ghost.items():
             if pose in control.visible and curve is not control.curves.get(pose):
+                if not control.curves:  # a suggestion: nothing else tells which pose is which
+                    colour = theme.mix(self._colour(pose), theme.BACKGROUND, 0.75)
+                    painter.setPen(QPen(colour, 1, Qt.PenStyle.DashLine))
                 painter.drawPolyline(polygon(spline_points(curve, control.spline, control.view)))
 
     def _colour(self, pose: str) -> QColor:

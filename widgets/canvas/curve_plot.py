@@ -32,7 +32,7 @@ class CurvePlot(pg.PlotWidget):
         super().__init__(parent, background=theme.BACKGROUND, axisItems=axes, enableMenu=False)
         self._control = control
         self._item = CurveItem(control)
-        self._item.empty_text = self.tr("No curves yet: pick a pose and double-click to draw one.")
+        self.set_suggestion("")
         self._playhead: float | None = None
         self._line = QGraphicsLineItem()
         self._line.setPen(QPen(theme.PLAYHEAD, 1))
@@ -61,6 +61,16 @@ class CurvePlot(pg.PlotWidget):
     def set_polygon(self, on: bool) -> None:
         """Whether the straight lines between keys are drawn."""
         self._item.polygon = on
+        self._item.update()
+
+    def set_suggestion(self, source: str) -> None:
+        """Where the ghost of an empty bigram comes from, to be told there; "" when it is no suggestion."""
+        if source:
+            self._item.empty_text = self.tr("%1. Tab accepts it as a draft; or double-click to draw.").replace(
+                "%1", source[:1].upper() + source[1:]
+            )
+        else:
+            self._item.empty_text = self.tr("No curves yet: pick a pose and double-click to draw one.")
         self._item.update()
 
     def set_played(self, lines: Mapping[str, tuple[Array, Array]] | None) -> None:

@@ -1,4 +1,4 @@
-"""The black rows under the stage overlay: Time, Phoneme, Start (figure 6)."""
+"""The black rows under the stage overlay: Time, Phoneme, Start (figure 6), and Word."""
 
 from __future__ import annotations
 
@@ -15,6 +15,8 @@ from core_pipeline.pipeline import Stages
 from .. import theme
 from .time_axis import TimeAxis, clock
 
+#: A word: text, start and end in seconds.
+Span = tuple[str, float, float]
 #: Height of one black row in pixels, the line between two included.
 ROW = 18
 BLACK = QColor("#08090a")
@@ -89,7 +91,8 @@ class Footer:
     def titles(rows: int) -> list[str]:
         """The names of the first `rows` rows in the user's language."""
         tr = QCoreApplication.translate
-        return [tr("StageOverlay", "Time"), tr("StageOverlay", "Phoneme"), tr("StageOverlay", "Start")][:rows]
+        titles = ("Time", "Phoneme", "Start", "Word")
+        return [tr("StageOverlay", title) for title in titles[:rows]]
 
     def draw(
         self,
@@ -100,11 +103,13 @@ class Footer:
         sources: Sequence[str],
         lit: frozenset[int],
         loop: tuple[float, float] | None,
+        words: Sequence[Span] = (),
     ) -> None:
         """Fill `box` with as many rows as fit.
 
         sources  the language's phone for each phone of the schedule, or empty
         lit      numbers of the phones of the open bigram
+        words    text, start and end of each
         """
         rows = max(box.height() // ROW, 1)
         gutter = int(axis.x0)
@@ -125,6 +130,8 @@ class Footer:
             self._draw_phones(painter, box.top() + ROW, first, x, stages, sources, lit)
         if rows > 2:
             self._draw_starts(painter, box.top() + 2 * ROW, times[first:last], x)
+        if rows > 3:
+            self._draw_words(painter, box.top() + 3 * ROW, axis, words)
         painter.setClipping(False)
 
     def _draw_times(self, painter: QPainter, top: int, axis: TimeAxis, loop: tuple[float, float] | None) -> None:
@@ -209,6 +216,20 @@ class Footer:
                 corners = ((x[k] - 4, top), (x[k] + 4, top), (x[k], top + 5))
                 painter.drawPolygon(QPolygonF([QPointF(px, py) for px, py in corners]))
         painter.setBrush(Qt.BrushStyle.NoBrush)
+
+    def _draw_words(self, painter: QPainter, top: int, axis: TimeAxis, words: Sequence[Span]) -> None:
+        """Each in a box as long as it sounds; one too long for its box is shortened."""
+        painter.setFont(self._name)
+        metrics = QFontMetricsF(self._name)
+        for text, start, end in words:
+            if end < axis.left or start > axis.right:
+                continue
+            a, b = (min(max(axis.px(t), axis.x0), axis.x1) for t in (start, end))
+            painter.fillRect(QRectF(a + 1, top + 1, b - a - 1, ROW - 3), theme.mix(theme.BORDER, BLACK, 0.6))
+            painter.setPen(theme.TEXT)
+            shown = metrics.elidedText(text, Qt.TextElideMode.ElideRight, b - a - 4)
+            if shown not in ("", "…"):
+                painter.drawText(QRectF(a, top, b - a, ROW - 2), Qt.AlignmentFlag.AlignCenter, shown)
 
     def _draw_starts(self, painter: QPainter, top: int, times: np.ndarray, x: np.ndarray) -> None:
         painter.setFont(self._small)

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 import pyqtgraph as pg
 from numpy.typing import NDArray
-from PySide6.QtCore import QLineF, QPointF, Qt
-from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
+from PySide6.QtCore import QLineF, Qt
+from PySide6.QtGui import QColor, QPainter, QPen
 
 from .. import theme
 from ..theme import StageStyle
@@ -50,6 +50,11 @@ class RowPlace:
         # The raster engine cannot hold coordinates far outside the widget.
         return np.clip(self.axis.px(t), -4000.0, self.axis.x1 + 4000.0), self.base - self.tall * v
 
+
+#: Another method's curve.
+METHOD = theme.mix(theme.MUTED, theme.BRIGHT, 0.6)
+#: The final curve before the last edit.
+_GHOST = StageStyle("Before", theme.MUTED, 1.0, ())
 
 Draw = Callable[[QPainter, RowPlace, PoseLines, StageStyle], None]
 
@@ -145,11 +150,12 @@ def _draw_change(painter: QPainter, place: RowPlace, before: Line, after: Line, 
         painter.setBrush(fill)
         # The edges are drawn as lines anyway, and without antialiasing a fill costs a tenth.
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
-        xs, top, bottom = x.tolist(), upper.tolist(), (place.base - place.tall * changed.before).tolist()
+        lower = place.base - place.tall * changed.before
         for a, b in _runs(changed.differs):
-            over = [QPointF(xs[k], top[k]) for k in range(a, b + 1)]
-            under = [QPointF(xs[k], bottom[k]) for k in range(b, a - 1, -1)]
-            painter.drawPolygon(QPolygonF(over + under))
+            there = slice(a, b + 1)
+            xs = np.concatenate((x[there], x[there][::-1]))
+            ys = np.concatenate((upper[there], lower[there][::-1]))
+            painter.drawPolygon(pg.functions.arrayToQPolygonF(xs, ys))
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
     painter.setPen(style.pen())
@@ -178,10 +184,25 @@ LAYERS: tuple[Layer, ...] = (
 )
 
 
-def draw_ghost(painter: QPainter, place: RowPlace, lines: PoseLines) -> None:
-    """The final curve as it was before, in grey, under everything."""
-    painter.setPen(QPen(theme.GHOST, 1))
+def draw_ghost(painter: QPainter, place: RowPlace, before: PoseLines, now: PoseLines) -> None:
+    """Under everything, the final curve as it was before, in grey where it was another one."""
+    _draw_change(painter, place, now.stage["magenta"], before.stage["magenta"], _GHOST)
+
+
+def draw_other(painter: QPainter, place: RowPlace, lines: PoseLines, style: StageStyle) -> None:
+    """The final curve of another curve set, dashed beside the present one's solid line."""
+    pen = QPen(theme.mix(style.colour, theme.BRIGHT, 0.45), 1)
+    pen.setDashPattern([5, 4])
+    painter.setPen(pen)
     _draw_thin(painter, place, [lines.stage["magenta"]])
+
+
+def draw_method(painter: QPainter, place: RowPlace, line: Line) -> None:
+    """What another method makes of the sentence: grey, dashed, under the stages' own colours."""
+    pen = QPen(METHOD, 1.4)
+    pen.setDashPattern([4, 3])
+    painter.setPen(pen)
+    _draw_thin(painter, place, [line])
 
 
 def draw_origin(painter: QPainter, place: RowPlace, curve: Line, style: StageStyle) -> None:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core_pipeline.pipeline import STAGES, Stages
+from core_pipeline.weights import Weights
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -105,6 +106,12 @@ def pose_lines(stages: Stages) -> dict[str, PoseLines]:
             lines[colour] = Line(x - (p * track.stride - track.start), v)
         result[pose] = PoseLines(pose, _red(stages, p), lines)
     return result
+
+
+def weights_lines(weights: Weights) -> dict[str, Line]:
+    """Every pose's frames, joined by straight lines."""
+    times = weights.start + np.arange(len(weights.frames)) / weights.fps
+    return {pose: Line(times, weights.frames[:, p].astype(np.float64)) for p, pose in enumerate(weights.poses)}
 
 
 def _red(stages: Stages, p: int) -> tuple[Line, Line]:

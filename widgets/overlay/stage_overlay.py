@@ -9,7 +9,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QPoint, Qt
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QHelpEvent, QKeyEvent, QMouseEvent, QWheelEvent
 from PySide6.QtWidgets import QToolTip, QWidget
 
@@ -18,6 +18,7 @@ from core_pipeline.poses import MEANING
 
 from .stage_footer import ROW, phone_tip
 from .stage_keyboard import NOTCH, StageKeyboard
+from .stage_marks import Mark, mark_at
 from .stage_picking import phone_at, read
 from .stage_rows import Row
 
@@ -47,10 +48,10 @@ class StageOverlay(StageKeyboard):
     # Where is the mouse?
 
     def _zone(self, at: QPoint) -> str:
-        """ "row", "name", or one of the black rows "time", "phone", "start"."""
+        """ "row", "name", or one of the black rows "time", "phone", "start", "word"."""
         if at.y() < self.rows_height:
             return "name" if at.x() < self.axis.x0 - 2 else "row"
-        return ("time", "phone", "start")[min((at.y() - self.rows_height) // ROW, self.footer_rows - 1)]
+        return ("time", "phone", "start", "word")[min((at.y() - self.rows_height) // ROW, self.footer_rows - 1)]
 
     def _row_at(self, at: QPoint) -> Row | None:
         return next((row for row in self.rows if row.top <= at.y() < row.bottom), None)
@@ -140,11 +141,13 @@ class StageOverlay(StageKeyboard):
 
     def _click(self, zone: str, at: QPoint) -> None:
         row = self._row_at(at)
-        if zone == "name" and row is not None:
+        if marks := mark_at(QPointF(at), self._marks, self.axis, self.row_of):
+            self._open_mark(marks[0])
+        elif zone == "name" and row is not None:
             self.pose_activated.emit(row.pose)
         elif zone == "row" and row is not None:
             self._open(row.pose, self.axis.time(at.x()))
-        elif zone in {"phone", "start"} and self._stages is not None:
+        elif zone in {"phone", "start", "word"} and self._stages is not None:
             phone = phone_at(self._stages, self.axis.time(at.x()))
             self._scrub_to(float(self._stages.schedule.times[phone]))
 
@@ -154,6 +157,15 @@ class StageOverlay(StageKeyboard):
             return None
         a, b = sorted((self.axis.time(self._from.x()), self.axis.time(at.x())))
         return (a, b) if b > a else None
+
+    def _open_mark(self, mark: Mark) -> None:
+        if self._stages is None:
+            return
+        times, pairs = self._stages.schedule.times, self._stages.schedule.pairs()
+        places = [i for i, pair in enumerate(pairs) if pair == mark.pair]
+        if places:
+            index = min(places, key=lambda i: abs(float(times[i + 1]) - mark.time))
+            self.bigram_picked.emit(index, mark.time, mark.pose or self.active_pose)
 
     # Reading
 
@@ -181,6 +193,8 @@ class StageOverlay(StageKeyboard):
         zone, row = self._zone(at), self._row_at(at)
         if self._stages is None:
             return ""
+        if marks := mark_at(QPointF(at), self._marks, self.axis, self.row_of):
+            return "\n".join(f"{' – '.join(mark.pair)}: {mark.reason}" for mark in marks)
         if zone == "name" and row is not None:
             meaning = MEANING.get(row.pose, "")
             return f"{row.pose}: {meaning}" if meaning else row.pose

@@ -10,11 +10,15 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSizePolicy, QVBox
 
 from core_pipeline.phonemes import Pair
 from core_pipeline.pipeline import Stages
+from core_pipeline.weights import Weights
 
 from .. import theme
+from .method_box import MethodBox
+from .phone_hand import PhoneHand
 from .stage_chip import StageChip
+from .stage_footer import Span
 from .stage_layers import LAYERS
-from .stage_overlay import StageOverlay
+from .stage_marks import Mark
 from .stage_picking import Reading
 from .stage_rows import MODES
 from .time_axis import clock
@@ -43,9 +47,10 @@ class StagePanel(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.overlay = StageOverlay(self)
+        self.overlay = PhoneHand(self)
         self.chips = [StageChip(layer.name, i + 1, self) for i, layer in enumerate(LAYERS)]
         self.mode_box = QComboBox(self)
+        self.method_box = MethodBox(self)
         self.reading = QLabel(self)
         self._before_solo: frozenset[str] | None = None
         self._now: Reading | None = None
@@ -78,6 +83,7 @@ class StagePanel(QWidget):
         self._bar.addSpacing(8)
         self._bar.addWidget(self.reading, 1)
         self._bar.addSpacing(6)
+        self._bar.addWidget(self.method_box)
         self._bar.addWidget(self.mode_box)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
@@ -94,6 +100,10 @@ class StagePanel(QWidget):
     def set_source_phones(self, phones: Sequence[str] | None) -> None:
         """The language's own phone for each phone of the schedule; ignored while their numbers differ."""
         self.overlay.set_source_phones(phones)
+
+    def set_words(self, words: Sequence[Span]) -> None:
+        """The words of the utterance: text, start and end in seconds."""
+        self.overlay.set_words(words)
 
     def set_active_pose(self, pose: str) -> None:
         """The pose whose row is tall."""
@@ -114,6 +124,18 @@ class StagePanel(QWidget):
     def set_ghost(self, stages: Stages | None) -> None:
         """An earlier result, its final curves in grey under the present ones."""
         self.overlay.set_ghost(stages)
+
+    def set_other(self, stages: Stages | None) -> None:
+        """What another curve set makes of the sentence, its final curves dashed; None for none."""
+        self.overlay.set_other(stages)
+
+    def set_method(self, weights: Weights | None) -> None:
+        """What another method makes of the sentence, grey and dashed; None for none."""
+        self.overlay.set_method(weights)
+
+    def set_marks(self, marks: Sequence[Mark]) -> None:
+        """What is weak, where it is."""
+        self.overlay.set_marks(marks)
 
     def set_loop_range(self, loop: tuple[float, float] | None) -> None:
         """The part that is played in a loop, in seconds."""
@@ -192,7 +214,12 @@ class StagePanel(QWidget):
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Qt's hook: in a narrow panel the chips keep only their samples, so that the reading has room."""
         super().resizeEvent(event)
-        full = sum(chip.full_width for chip in self.chips) + self.mode_box.sizeHint().width() + READING
+        full = (
+            sum(chip.full_width for chip in self.chips)
+            + self.mode_box.sizeHint().width()
+            + READING
+            + self.method_box.sizeHint().width()
+        )
         for chip in self.chips:
             chip.set_compact(full > event.size().width())
         self._fit_reading()

@@ -1,25 +1,28 @@
 """What the stage overlay shows: a row per pose on one time axis, the black rows below, the playhead.
 
-Each row is a cached pixmap, redrawn only when its lines changed; the rows are composed into one sheet,
-so that moving the playhead copies two narrow strips of it.
+Each row is a cached pixmap, redrawn only when its lines changed, and so is the ground behind and below them;
+moving the playhead copies two narrow strips of these, an edit the rows it changed.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+import numpy as np
 from PySide6.QtCore import QPointF, QRect, QRectF, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QPen, QPixmap, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
 from core_pipeline.phonemes import Pair
 from core_pipeline.pipeline import Stages
+from core_pipeline.weights import Weights
 
 from .. import theme
 from . import stage_backdrop as backdrop
-from .stage_footer import ROW, Footer
-from .stage_layers import LAYERS, RowPlace, draw_ghost, draw_origin
-from .stage_lines import Line, PoseLines, pose_lines
+from .stage_footer import ROW, Footer, Span
+from .stage_layers import LAYERS, RowPlace, draw_ghost, draw_method, draw_origin, draw_other
+from .stage_lines import Line, PoseLines, pose_lines, weights_lines
+from .stage_marks import HALF, Mark, draw_marks
 from .stage_picking import Reading, curve_of
 from .stage_rows import MODES, Row, lay_out
 from .time_axis import TimeAxis
@@ -38,7 +41,11 @@ class StageView(QWidget):
         self._stages: Stages | None = None
         self._lines: dict[str, PoseLines] = {}
         self._ghost: dict[str, PoseLines] = {}
+        self._other: dict[str, PoseLines] = {}
+        self._method: dict[str, Line] = {}
+        self._marks: tuple[Mark, ...] = ()
         self._sources: tuple[str, ...] = ()
+        self._words: tuple[Span, ...] = ()
         self._active = ""
         self._index: int | None = None
         self._pair: Pair | None = None
@@ -54,25 +61,39 @@ class StageView(QWidget):
         self._axis = TimeAxis()
         self._rows: tuple[Row, ...] = ()
         self._row_pixmaps: dict[str, tuple[object, QPixmap]] = {}
-        self._sheet: QPixmap | None = None
+        self._ground: QPixmap | None = None
 
     # Values come down
 
     def set_stages(self, stages: Stages | None) -> None:
         """Show another result; only the rows that look different are drawn anew."""
-        before = self._lines
+        before, lines_before = self._stages, self._lines
         self._stages = stages if stages is not None and len(stages.schedule) else None
         self._lines = {} if self._stages is None else pose_lines(self._stages)
-        for pose in [p for p in self._row_pixmaps if p not in self._lines or not self._lines[p].same_as(before.get(p))]:
+        changed = [pose for pose, lines in self._lines.items() if not lines.same_as(lines_before.get(pose))]
+        for pose in [pose for pose in self._row_pixmaps if pose in changed or pose not in self._lines]:
             del self._row_pixmaps[pose]
         if self._stages is not None:
             self._axis = self._axis.with_content(self._stages.schedule.start, self._stages.schedule.end)
+        if list(lines_before) != list(self._lines) or not _same_ground(before, self._stages):
+            self._redraw()
         self._lay_out()
+        for pose in changed:
+            self._update_row(pose)
 
     def set_source_phones(self, phones: Sequence[str] | None) -> None:
         """The language's phone for each phone of the schedule, such as "ae" for "ah"."""
-        self._sources = tuple(phones or ())
-        self._redraw()
+        sources = tuple(phones or ())
+        if sources != self._sources:
+            self._sources = sources
+            self._redraw()
+
+    def set_words(self, words: Sequence[Span]) -> None:
+        """The words of the utterance: text, start and end in seconds; without any there is no row for them."""
+        if tuple(words) != self._words:
+            self._words = tuple(words)
+            self._redraw()
+            self._lay_out()
 
     def set_active_pose(self, pose: str) -> None:
         """The pose whose row is tall."""
@@ -106,13 +127,33 @@ class StageView(QWidget):
         self._following = on
 
     def set_ghost(self, stages: Stages | None) -> None:
-        """Another result, whose final curves are drawn grey below; None for none."""
+        """Another result, whose final curves are drawn grey below where they differ; None for none."""
         before, self._ghost = self._ghost, {} if stages is None else pose_lines(stages)
         for pose in {*before, *self._ghost}:
             now = self._ghost.get(pose)
             if (now is None) != (pose not in before) or (now is not None and not now.same_as(before.get(pose))):
                 self._row_pixmaps.pop(pose, None)
-        self._redraw()
+                self._update_row(pose)
+
+    def set_other(self, stages: Stages | None) -> None:
+        """What another curve set makes of the sentence, its final curves dashed; None for none."""
+        if stages is not None or self._other:
+            self._other = {} if stages is None else pose_lines(stages)
+            self._row_pixmaps.clear()
+            self._redraw()
+
+    def set_method(self, weights: Weights | None) -> None:
+        """What another method makes of the sentence, grey and dashed; None for none."""
+        if weights is not None or self._method:
+            self._method = {} if weights is None else weights_lines(weights)
+            self._row_pixmaps.clear()
+            self._redraw()
+
+    def set_marks(self, marks: Sequence[Mark]) -> None:
+        """What is weak, where it is."""
+        if tuple(marks) != self._marks:
+            self._marks = tuple(marks)
+            self.update()
 
     def set_loop_range(self, loop: tuple[float, float] | None) -> None:
         """The part that is played in a loop, in seconds."""
@@ -177,22 +218,25 @@ class StageView(QWidget):
 
     @property
     def footer_rows(self) -> int:
-        """Time, Phoneme and Start; fewer where the overlay is very low."""
-        return 3 if self.height() >= 130 else 2
+        """Time, Phoneme and Start, and Word where there are any; fewer where the overlay is very low."""
+        return (3 + bool(self._words)) if self.height() >= 130 else 2
 
     # Layout
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Qt's hook."""
         super().resizeEvent(event)
+        self._redraw()
         self._lay_out()
 
     def _lay_out(self) -> None:
         peaks = {pose: lines.peak for pose, lines in self._lines.items()}
-        self._rows = lay_out(tuple(self._lines), self.active_pose, peaks, self._mode, self.rows_height)
-        gutter = self._names.width([*self._lines, *(title + "  +9" for title in self._footer.titles(3))])
-        self._axis = self._axis.with_pixels(float(min(gutter, self.width() // 3)), float(self.width() - _RIGHT))
-        self._redraw()
+        rows = lay_out(tuple(self._lines), self.active_pose, peaks, self._mode, self.rows_height)
+        gutter = self._names.width([*self._lines, *(title + "  +9" for title in self._footer.titles(4))])
+        axis = self._axis.with_pixels(float(min(gutter, self.width() // 3)), float(self.width() - _RIGHT))
+        if (rows, axis) != (self._rows, self._axis):
+            self._rows, self._axis = rows, axis
+            self._redraw()
 
     def _set_axis(self, axis: TimeAxis) -> None:
         if axis != self._axis:
@@ -200,8 +244,13 @@ class StageView(QWidget):
             self._redraw()
 
     def _redraw(self) -> None:
-        self._sheet = None
+        """The ground is out of date."""
+        self._ground = None
         self.update()
+
+    def _update_row(self, pose: str) -> None:
+        if (row := self.row_of(pose)) is not None:
+            self.update(0, row.top, self.width(), row.height)
 
     def _span(self, index: int | None) -> tuple[float, float] | None:
         """Seconds of bigram `index`; None where this utterance has no such bigram."""
@@ -220,15 +269,21 @@ class StageView(QWidget):
     # Painting
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Qt's hook: copies the sheet, then paints what moves."""
+        """Qt's hook: copies ground and rows, then paints what moves."""
         painter = QPainter(self)
         if self._stages is None:
             text = self.tr("Type a sentence above to see what the pipeline makes of your curves")
             backdrop.draw_hint(painter, self.rect(), text)
         else:
-            if self._sheet is None:
-                self._sheet = self._composed(self._stages)
-            painter.drawPixmap(0, 0, self._sheet)
+            if self._ground is None or self._ground.devicePixelRatio() != self.devicePixelRatioF():
+                self._ground = self._drawn_ground(self._stages)
+            painter.drawPixmap(0, 0, self._ground)
+            for row in self._rows:
+                if event.rect().intersects(QRect(0, row.top, self.width(), row.height)):
+                    painter.drawPixmap(0, row.top, self.row_pixmap(row))
+            first, last = (self._axis.left + (x - self._axis.x0) / self._axis.scale for x in _around(event.rect()))
+            marks = [mark for mark in self._marks if first <= mark.time <= last]
+            draw_marks(painter, marks, self._axis, self.row_of)
             self._paint_reading(painter, self._stages)
             backdrop.draw_playhead(painter, self._axis, self._playhead, self.height())
         if self.hasFocus():
@@ -262,10 +317,11 @@ class StageView(QWidget):
         pixmap.setDevicePixelRatio(ratio)
         return pixmap
 
-    def _composed(self, stages: Stages) -> QPixmap:
-        sheet = self._pixmap(self.height())
-        sheet.fill(theme.BACKGROUND)
-        painter = QPainter(sheet)
+    def _drawn_ground(self, stages: Stages) -> QPixmap:
+        """Behind the rows stripes, spans and boundaries; below them the black rows."""
+        ground = self._pixmap(self.height())
+        ground.fill(theme.BACKGROUND)
+        painter = QPainter(ground)
         for row in self._rows[1::2]:
             painter.fillRect(0, row.top, self.width(), row.height, backdrop.STRIPE)
         axis, tall = self._axis, self.rows_height
@@ -275,21 +331,19 @@ class StageView(QWidget):
         backdrop.draw_spans(painter, axis, stages.schedule, self._pair, span, tall)
         backdrop.draw_boundaries(painter, axis, stages.schedule, tall)
         painter.setClipping(False)
-        for row in self._rows:
-            painter.drawPixmap(0, row.top, self.row_pixmap(row))
         if self._loop is not None:
             backdrop.draw_loop(painter, axis, self._loop, tall + ROW)
         box = QRect(0, tall, self.width(), self.height() - tall)
         lit = frozenset() if span is None or self._index is None else frozenset((self._index, self._index + 1))
         sources = self._sources if len(self._sources) == len(stages.schedule) else ()
-        self._footer.draw(painter, box, axis, stages, sources, lit, self._loop)
+        self._footer.draw(painter, box, axis, stages, sources, lit, self._loop, self._words)
         if hidden := len(self._lines) - len(self._rows) if self._mode != "one" else 0:
             painter.setFont(self._names.small)
             painter.setPen(theme.WEAK)
             aside = QRect(0, tall, round(axis.x0) - 8, ROW - 1)
             painter.drawText(aside, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight, f"+{hidden}")
         painter.end()
-        return sheet
+        return ground
 
     def _place(self, row: Row) -> RowPlace:
         above = min(max(row.height // 10, 2), 8)
@@ -311,9 +365,27 @@ class StageView(QWidget):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
         painter.setClipRect(QRectF(axis.x0 - 2, row.top, axis.x1 - axis.x0 + 4, row.height))
         if (ghost := self._ghost.get(row.pose)) is not None:
-            draw_ghost(painter, place, ghost)
+            draw_ghost(painter, place, ghost, lines)
         for layer in LAYERS:
             if layer.name in self._shown:
                 layer.draw(painter, place, lines, self._styles[layer.name])
+        if (other := self._other.get(row.pose)) is not None:
+            draw_other(painter, place, other, self._styles["magenta"])
+        if (method := self._method.get(row.pose)) is not None:
+            draw_method(painter, place, method)
         painter.end()
         return pixmap
+
+
+def _around(rect: QRect) -> tuple[int, int]:
+    """The columns from which a mark reaches into `rect`."""
+    return rect.left() - HALF - 1, rect.right() + HALF + 1
+
+
+def _same_ground(one: Stages | None, other: Stages | None) -> bool:
+    """Whether nothing but curves differs."""
+    if one is None or other is None:
+        return one is other
+    a, b = one.schedule, other.schedule
+    known = (one.missing, one.unknown, a.phones) == (other.missing, other.unknown, b.phones)
+    return known and np.array_equal(a.times, b.times)

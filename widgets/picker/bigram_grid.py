@@ -22,17 +22,20 @@ from .phone_header import PhoneHeader, fits_level, header_font, widest
 
 MIN_CELL, MIN_TALL, MAX_CELL = 11, 9, 28  # pixels; a width of 11 only where the view must scroll as well
 _WIDER = 2  # a cell is at most this many times as wide as tall
+_FAINTEST = 0.45  # share of orange on the least weak cell
 _DIMMED = 0.35  # share of the fill left on cells that a search did not find
 
 
 class BigramGrid(QTableView):
-    """The square. Arrow keys and clicks move the current cell and open it at once: `picked(pair)`.
+    """The square. Arrow keys and clicks move the current cell and open it at once: `picked(pair)`; Enter
+    asks to work on it: `entered()`.
 
     Cells fill the width, each from 12 pixels on; they are as tall as wide where there is the height, else lower,
     down to 9. In less the view scrolls.
     """
 
     picked = Signal(tuple)
+    entered = Signal()
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -109,13 +112,15 @@ class BigramGrid(QTableView):
         self._lay_out()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Arrows, Home, End and pages move and open; Enter opens again."""
+        """Arrows, Home, End and pages move and open; Enter opens again and goes to the curves."""
         before = QPersistentModelIndex(self.currentIndex())
         super().keyPressEvent(event)
         now = self.currentIndex()
         entered = event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter)
         if now.isValid() and (entered or before != now):
             self.picked.emit(self.pairs.pair_at(now))
+            if entered:
+                self.entered.emit()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """A left click opens."""
@@ -197,7 +202,12 @@ class BigramGrid(QTableView):
                 self._pixels[cell] = colours.get(status, colours["draft"])
         for pair in self.pairs.weak:
             if cell := self.pairs.cell(pair):
-                self._pixels[cell] = theme.WEAK.rgb()
+                share = self.pairs.weakness.get(pair, 1.0)
+                own = theme.STATUS_COLOURS.get(self.pairs.statuses.get(pair, "empty"), theme.WEAK)
+                self._pixels[cell] = theme.mix(theme.WEAK, own, _FAINTEST + (1 - _FAINTEST) * share).rgb()
+        for pair, amount in (self.pairs.differences or {}).items():
+            if cell := self.pairs.cell(pair):
+                self._pixels[cell] = theme.mix(theme.HIGHLIGHT, theme.SUNKEN, min(max(amount, 0.0), 1.0)).rgb()
         if self._found is not None:
             found = np.zeros((count, count), bool)
             for pair in self._found:

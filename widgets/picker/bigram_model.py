@@ -27,6 +27,8 @@ class BigramModel(QAbstractTableModel):
         self.phonemes: tuple[str, ...] = ()
         self.statuses: Mapping[Pair, str] = {}
         self.weak: Mapping[Pair, str] = {}
+        self.weakness: Mapping[Pair, float] = {}
+        self.differences: Mapping[Pair, float] | None = None
         self.used: Mapping[Pair, int] = {}
         self.words: Mapping[Pair, str] = {}
         self.overridden: Collection[Pair] = frozenset()

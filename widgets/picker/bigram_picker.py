@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Mapping, Sequence
 from itertools import pairwise
+from types import MappingProxyType
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtGui import QAction, QActionGroup, QKeyEvent
@@ -19,6 +20,8 @@ from .. import theme
 from .bigram_grid import BigramGrid
 from .bigram_legend import BigramLegend, CoverageBar
 from .bigram_model import spoken_pair
+
+NONE: Mapping[Pair, float] = MappingProxyType({})
 
 
 def phones_in(text: str, phonemes: Sequence[str]) -> tuple[str, ...]:
@@ -32,10 +35,12 @@ class BigramPicker(QWidget):
     """The left dock's upper part.
 
     picked(pair)         the user wants this bigram opened: click, arrow key, Enter, or its name in the search
+    entered()            and wants to work on it: Enter in the square, or in a search that found only one
     search_wanted(text)  the search is no phones: whoever knows words answers with `set_matches`
     """
 
     picked = Signal(tuple)
+    entered = Signal()
     search_wanted = Signal(str)
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -53,10 +58,11 @@ class BigramPicker(QWidget):
             )
         )
         self.search.textChanged.connect(self._search)
-        self.search.returnPressed.connect(self._step)
+        self.search.returnPressed.connect(self._enter)
         self.search.installEventFilter(self)
         self.grid = BigramGrid()
         self.grid.picked.connect(self.picked)
+        self.grid.entered.connect(self.entered)
         self.legend = BigramLegend()
         self.coverage = CoverageBar()
         self._matches: list[Pair] = []
@@ -123,9 +129,15 @@ class BigramPicker(QWidget):
         self.grid.pairs.statuses = statuses
         self.grid.pairs.refresh()
 
-    def set_weak(self, weak: Mapping[Pair, str]) -> None:
-        """Pair → why it is weak, in a few words."""
+    def set_weak(self, weak: Mapping[Pair, str], shares: Mapping[Pair, float] = NONE) -> None:
+        """Pair → why it is weak, in a few words, and how weak beside the weakest, 0…1; unknown: as weak as that."""
         self.grid.pairs.weak = weak
+        self.grid.pairs.weakness = shares
+        self.grid.pairs.refresh()
+
+    def set_differences(self, differences: Mapping[Pair, float] | None) -> None:
+        """Tint pairs by how much they differ from another set, 0…1, in place of status; None: no more."""
+        self.grid.pairs.differences = differences
         self.grid.pairs.refresh()
 
     def set_used(self, used: Mapping[Pair, int]) -> None:
@@ -219,6 +231,11 @@ class BigramPicker(QWidget):
         else:
             found = self.tr("%1 bigrams · Enter steps through them").replace("%1", str(len(self._matches)))
             self.legend.set_message(found)
+
+    def _enter(self) -> None:
+        self._step()
+        if len(self._matches) == 1:
+            self.entered.emit()
 
     def _step(self) -> None:
         if self._matches:

@@ -28,10 +28,11 @@ from .bigram_model import spoken_pair
 class WeakRow:
     """One line of the list.
 
-    reason   why, in a few words: "missing", "speed-limited 38 %"
-    time     where in the sentence it is worst, seconds; None when it is no place in time
-    uses     how often the sentence has it
-    serious  drawn with a warning sign; a mere draft is not
+    reason    why, in a few words: "missing", "speed-limited 38 %"
+    time      where in the sentence it is, seconds; None when it is no place in time
+    uses      how often the sentence, or the text, has it
+    serious   drawn with a warning sign; a mere draft is not
+    sentence  the sentence of a text in which it is; "" for the present one
     """
 
     pair: Pair
@@ -39,6 +40,7 @@ class WeakRow:
     time: float | None = None
     uses: int = 0
     serious: bool = True
+    sentence: str = ""
 
 
 class _Rows(QTreeWidget):
@@ -95,9 +97,14 @@ class _Rows(QTreeWidget):
 
 
 class WeakList(QWidget):
-    """picked(pair, time): the user wants this bigram opened, at this time of the sentence or None."""
+    """Rows to open.
+
+    picked(pair, time)               the user wants this bigram opened, at this time of the sentence or None
+    picked_in(pair, sentence, time)  the same, in another sentence than the present one
+    """
 
     picked = Signal(tuple, object)
+    picked_in = Signal(tuple, str, object)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -135,6 +142,25 @@ class WeakList(QWidget):
         self._title.setText(self.tr("Weak bigrams in this sentence") + count)
         self.list.viewport().update()
 
+    def step(self, way: int) -> None:
+        """Open the next bigram of the list, or the previous one with −1; round the end."""
+        if not self._values:
+            return
+        at = self.list.currentIndex().row()
+        here = self._values[at].pair if at >= 0 else None
+        if at < 0 and way < 0:
+            at = 0
+        for _ in self._values:  # several rows may be about the same bigram
+            at = (at + way) % len(self._values)
+            if self._values[at].pair != here:
+                break
+        self.list.setCurrentItem(self.list.topLevelItem(at))
+        self._open(self.list.currentIndex())
+
+    def hide_title(self) -> None:
+        """Somebody else says what the list is about."""
+        self._title.hide()
+
     @property
     def rows(self) -> tuple[WeakRow, ...]:
         """What is shown."""
@@ -150,7 +176,8 @@ class WeakList(QWidget):
         item.setForeground(1, theme.TEXT if row.serious else theme.MUTED)
         item.setForeground(2, theme.MUTED)
         item.setTextAlignment(2, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        whole = " · ".join(part for part in (spoken_pair(row.pair), reason, time) if part)
+        quoted = f"“{row.sentence}”" if row.sentence else ""
+        whole = " · ".join(part for part in (spoken_pair(row.pair), reason, time, quoted) if part)
         for column in range(3):
             item.setToolTip(column, whole)
             item.setData(column, Qt.ItemDataRole.AccessibleTextRole, whole)
@@ -158,4 +185,7 @@ class WeakList(QWidget):
 
     def _open(self, index: QModelIndex) -> None:
         row = self._values[index.row()]
-        self.picked.emit(row.pair, row.time)
+        if row.sentence:
+            self.picked_in.emit(row.pair, row.sentence, row.time)
+        else:
+            self.picked.emit(row.pair, row.time)

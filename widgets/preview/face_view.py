@@ -1,11 +1,12 @@
-"""The preview: shows frames of the face and turns the mouse into wishes for another view."""
+"""The preview: shows frames of the faces and turns the mouse into wishes for another view."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import (
     QColor,
-    QFontMetricsF,
     QImage,
     QKeyEvent,
     QLinearGradient,
@@ -15,12 +16,15 @@ from PySide6.QtGui import (
     QResizeEvent,
     QWheelEvent,
 )
-from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QVBoxLayout, QWidget
+
+from core_pipeline.faces.view import places
 
 from .. import theme
+from .name_tag import HEIGHT, NameTag, Tag
 
 _KEY_STEP = 20.0  # pixels of drag that one press of an arrow key stands for
-_MARGIN = 8
+_MARGIN = 6
 
 
 class FaceView(QWidget):
@@ -36,10 +40,19 @@ class FaceView(QWidget):
     """Wheel, + and -: steps, positive to come nearer."""
 
     reset_wanted = Signal()
-    """Double click, Home or the button: the face's own view again."""
+    """Double click or Home: the faces' own view again."""
 
-    cutaway_wanted = Signal(bool)
-    """The other button or C: the near half of the head hidden, to see the tongue."""
+    held = Signal(bool)
+    """A drag began, or ended."""
+
+    cutaway_wanted = Signal(int, bool)
+    """The scissors of a face, or C for all: the near half of its head hidden, to see the tongue."""
+
+    face_wanted = Signal(int)
+    """Its name: another face in its place."""
+
+    away_wanted = Signal(int)
+    """Its cross: this face no longer."""
 
     retry_wanted = Signal()
     """The button under a message."""
@@ -56,15 +69,10 @@ class FaceView(QWidget):
         self.setMinimumSize(160, 160)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self._image = QImage()
-        self._caption = ""
+        self._tags: tuple[Tag, ...] = ()
+        self._name_tags: list[NameTag] = []
         self._from: QPointF | None = None
         self._told = QSize()
-
-        self._reset = self._button("camera-retake-outline", self.tr("Reset the view"), self.tr("Reset the view (Home)"))
-        self._reset.clicked.connect(self.reset_wanted)
-        self._cut = self._button("content-cut", self.tr("Cut-away"), self.tr("Cut the head open to see the tongue (C)"))
-        self._cut.setCheckable(True)
-        self._cut.clicked.connect(self.cutaway_wanted)
 
         self._message = QLabel(self)
         self._message.setWordWrap(True)
@@ -95,23 +103,30 @@ class FaceView(QWidget):
             self.set_message("")
         self.update()
 
-    def set_caption(self, caption: str) -> None:
-        """A small line in the corner, such as "Toon · 512 × 512 · 58 fps"."""
-        if caption != self._caption:
-            self._caption = caption
-            self.update()
+    def set_tags(self, tags: Sequence[Tag]) -> None:
+        """What is said of each face, from left to right."""
+        self._tags = tuple(tags)
+        while len(self._name_tags) > len(tags):
+            gone = self._name_tags.pop()
+            gone.hide()
+            gone.deleteLater()
+        while len(self._name_tags) < len(tags):
+            self._name_tags.append(self._name_tag(len(self._name_tags)))
+        self._lay_out_tags()
+        self.update()
 
-    def set_cutaway(self, cutaway: bool) -> None:
-        """Whether the head is shown cut open."""
-        self._cut.setChecked(cutaway)
+    @property
+    def name_tags(self) -> tuple[NameTag, ...]:
+        """The tags on the picture, from left to right."""
+        return tuple(self._name_tags)
 
     def set_message(self, message: str, retry: bool = False) -> None:
         """Say why there is no face, over the last frame; "" to say nothing. With `retry` a button offers it."""
         self._message.setText(message)
         self._message.setVisible(bool(message))
         self._retry.setVisible(bool(message) and retry)
-        for button in (self._reset, self._cut):
-            button.setVisible(not message)
+        for tag in self._name_tags:
+            tag.setVisible(not message)
         self.update()
 
     def frame_size(self) -> QSize:
@@ -134,19 +149,16 @@ class FaceView(QWidget):
         if not self._message.isHidden():
             veil = theme.SUNKEN
             painter.fillRect(self.rect(), veil if self._image.isNull() else _faded(veil, 200))
-        elif self._caption:
-            self._paint_caption(painter)
+        else:
+            self._paint_mute(painter)
         if self.hasFocus():
             painter.setPen(theme.ACCENT)
+            painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.drawRect(QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5))
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Tell the new size, and keep the buttons in their corner."""
-        x = self.width() - _MARGIN // 2
-        for button in (self._reset, self._cut):
-            hint = button.sizeHint()
-            x -= hint.width()
-            button.setGeometry(x, _MARGIN // 2, hint.width(), hint.height())
+        """Tell the new size, and keep the tags under their faces."""
+        self._lay_out_tags()
         self._tell_size()
 
     def event(self, event: QEvent) -> bool:
@@ -159,6 +171,7 @@ class FaceView(QWidget):
         """Begin a drag."""
         if event.button() in (Qt.MouseButton.LeftButton, Qt.MouseButton.MiddleButton):
             self._from = event.position()
+            self.held.emit(True)
             self.setCursor(Qt.CursorShape.ClosedHandCursor)
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
@@ -175,6 +188,7 @@ class FaceView(QWidget):
         """End the drag with the last button."""
         if not event.buttons() & (Qt.MouseButton.LeftButton | Qt.MouseButton.MiddleButton):
             self._from = None
+            self.held.emit(False)
             self.unsetCursor()
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
@@ -207,19 +221,33 @@ class FaceView(QWidget):
         elif key == Qt.Key.Key_Home:
             self.reset_wanted.emit()
         elif key == Qt.Key.Key_C and not event.modifiers():
-            self._cut.click()
+            cut = not all(tag.cut for tag in self._tags)
+            for index in range(len(self._tags)):
+                self.cutaway_wanted.emit(index, cut)
         else:
             super().keyPressEvent(event)
 
     # ── building and painting ──
 
-    def _button(self, icon: str, name: str, tip: str) -> QToolButton:
-        button = QToolButton(self)
-        button.setIcon(theme.icon(icon, theme.MUTED))
-        button.setAutoRaise(True)
-        button.setAccessibleName(name)
-        button.setToolTip(tip)
-        return button
+    def _name_tag(self, index: int) -> NameTag:
+        tag = NameTag(self)
+        tag.face_wanted.connect(lambda: self.face_wanted.emit(index))
+        tag.cut_wanted.connect(lambda cut: self.cutaway_wanted.emit(index, cut))
+        tag.away_wanted.connect(lambda: self.away_wanted.emit(index))
+        tag.setVisible(self._message.isHidden())
+        return tag
+
+    def _lay_out_tags(self) -> None:
+        for place, name_tag, tag in zip(self._places(), self._name_tags, self._tags, strict=True):
+            room = round(place.width()) - 2 * _MARGIN
+            name_tag.show_tag(tag, room, alone=len(self._tags) == 1)
+            width = min(name_tag.sizeHint().width(), room)
+            x, y = place.center().x() - width / 2, place.bottom() - _MARGIN - HEIGHT
+            name_tag.setGeometry(round(x), round(y), width, HEIGHT)
+
+    def _places(self) -> list[QRectF]:
+        """Where each face is, in the widget."""
+        return [QRectF(*place) for place in places((self.width(), self.height()), len(self._tags))][: len(self._tags)]
 
     def _cropped(self) -> QRectF:
         """The middle part of the frame that has the widget's shape."""
@@ -233,17 +261,21 @@ class FaceView(QWidget):
         fall.setColorAt(1.0, theme.BACKGROUND)
         painter.fillRect(self.rect(), fall)
 
-    def _paint_caption(self, painter: QPainter) -> None:
-        font = theme.font(8.0)
-        painter.setFont(font)
-        room = self._cut.x() - 2 * _MARGIN
-        metrics = QFontMetricsF(font)
-        text = metrics.elidedText(self._caption, Qt.TextElideMode.ElideRight, room)
-        place = QPointF(_MARGIN, _MARGIN + metrics.ascent())
-        painter.setPen(_faded(theme.SUNKEN, 170))
-        painter.drawText(place + QPointF(0, 1), text)
-        painter.setPen(theme.mix(theme.TEXT, theme.MUTED, 0.4))
-        painter.drawText(place, text)
+    def _paint_mute(self, painter: QPainter) -> None:
+        """Over a face that can say nothing of this: a word, or it would only seem broken."""
+        painter.setFont(theme.font(9.0))
+        for place, tag in zip(self._places(), self._tags, strict=True):
+            if tag.mute:
+                bottom = place.bottom() - HEIGHT - 2 * _MARGIN
+                room = QRectF(place.left() + _MARGIN, place.top(), place.width() - 2 * _MARGIN, bottom - place.top())
+                flags = Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignBottom | Qt.TextFlag.TextWordWrap
+                word = self.tr("None of this set's poses can be made on this face")
+                box = painter.boundingRect(room.adjusted(6, 0, -6, -4), flags, word)
+                painter.setPen(Qt.PenStyle.NoPen)
+                painter.setBrush(_faded(theme.SUNKEN, 200))
+                painter.drawRoundedRect(box.adjusted(-6, -4, 6, 4), 6, 6)
+                painter.setPen(theme.WEAK)
+                painter.drawText(box, flags, word)
 
     def _tell_size(self) -> None:
         if (size := self.frame_size()) != self._told:

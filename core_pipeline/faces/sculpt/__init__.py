@@ -32,6 +32,10 @@ def build_all(
         if name not in known:
             raise UserError(f"“{name}” is none of our characters; choose from {', '.join(known)}.")
     chosen = [known[name] for name in names] or CHARACTERS
+    try:
+        Path(folder).mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise UserError(f"{folder}: cannot be written ({error.strerror}); choose another place.") from None
     written = []
     for number, character in enumerate(chosen, 1):
         place = Path(folder) / character.name

@@ -22,12 +22,12 @@ from core_pipeline.faces.sculpt.sdf import Blob, Point
 
 CLAY = (
     Blob((0, 0.40, -0.12), (0.73, 0.74, 0.88), 0.1),  # cranium
-    Blob((0, -0.26, 0.16), (0.51, 0.54, 0.60), 0.28),  # jaw
+    Blob((0, -0.24, 0.16), (0.50, 0.51, 0.59), 0.28),  # jaw
     Blob((0.35, -0.06, 0.44), (0.24, 0.18, 0.26), 0.20, mirrored=True),  # cheekbones
     Blob((0.27, -0.32, 0.42), (0.22, 0.22, 0.24), 0.20, mirrored=True),  # cheeks
-    Blob((0.21, -0.54, 0.28), (0.20, 0.18, 0.26), 0.26, mirrored=True),  # corners of the jaw
+    Blob((0.19, -0.50, 0.29), (0.20, 0.17, 0.26), 0.26, mirrored=True),  # corners of the jaw
     Blob((0, -0.42, 0.55), (0.27, 0.24, 0.27), 0.20),  # the round under nose and lips
-    Blob((0, -0.75, 0.58), (0.15, 0.14, 0.18), 0.24),  # chin
+    Blob((0, -0.705, 0.585), (0.145, 0.13, 0.17), 0.24),  # chin
     Blob((0.26, 0.36, 0.58), (0.23, 0.06, 0.11), 0.14, mirrored=True),  # brow
     Blob((0.31, 0.16, 0.88), (0.17, 0.12, 0.17), 0.12, mirrored=True, carve=True),  # eye sockets
     Blob((0, 0.06, 0.755), (0.052, 0.29, 0.10), 0.14),  # bridge of the nose
@@ -111,6 +111,17 @@ HAIR = Hair(
             ),
             thickness=0.07, height=0.055, clumps=4, ragged=0.0, columns=30, rows=18, mirrored=False,
         ),
+        Sheet(  # a fringe that falls from the parting over the left temple
+            guides=(
+                ((0.16, 0.98, 0.44), (-0.10, 0.95, 0.64), (-0.38, 0.76, 0.66), (-0.60, 0.46, 0.52),
+                 (-0.69, 0.16, 0.40)),
+                ((0.18, 0.93, 0.50), (-0.06, 0.88, 0.71), (-0.33, 0.66, 0.72), (-0.56, 0.36, 0.57),
+                 (-0.68, 0.06, 0.44)),
+                ((0.19, 0.88, 0.55), (-0.01, 0.80, 0.76), (-0.27, 0.56, 0.77), (-0.50, 0.26, 0.62),
+                 (-0.66, -0.02, 0.47)),
+            ),
+            thickness=0.05, height=0.045, clumps=3, ragged=0.22, columns=19, rows=16, mirrored=False,
+        ),
         Sheet(  # the knot
             guides=_knot(0.36, 2.6), thickness=0.09, height=-1.0, clumps=9, ragged=0.0, columns=46, rows=16,
             mirrored=False,
@@ -134,18 +145,18 @@ ADA = Character(
     hair=HAIR,
     rest_tongue=REST,
     mouth=Mouth(
-        height=-0.44, half_width=0.25, smile=0.035, upper=0.046, lower=0.064, upper_depth=0.026, lower_depth=0.034,
+        height=-0.44, half_width=0.25, smile=0.044, upper=0.048, lower=0.066, upper_depth=0.026, lower_depth=0.034,
         lap=0.03, bow=1.5, rim=0.015, hinge=(0.0, -0.12, -0.08), bag=(0.32, 0.20, 0.55),
     ),
     teeth=Dentition(half_width=0.245, depth=0.36, behind_lips=0.08, edge=-0.022, upper_height=0.115, lower_height=0.10),
     eyes=Eyes(
-        centre=(0.295, 0.165, 0.53), radius=0.215, half_width=0.88, upper=0.42, lower=0.31, slant=0.07, yaw=10,
+        centre=(0.295, 0.165, 0.53), radius=0.225, half_width=0.87, upper=0.46, lower=0.32, slant=0.06, yaw=10,
         skew=(-0.06, 0.12), spread=1.2, ease=1.0, shut=0.16, iris=29, pupil=12, iris_colour=(0.36, 0.24, 0.12),
         crease=1.0, lashes=30, lash_length=0.19, streaks=0.25,
     ),
     brows=Brows(
-        line=((0.10, 0.252, 0.020), (0.19, 0.272, 0.028), (0.30, 0.292, 0.025), (0.40, 0.280, 0.017), (0.49, 0.225,
-        0.006)),
+        line=((0.10, 0.282, 0.022), (0.19, 0.308, 0.030), (0.30, 0.330, 0.027), (0.40, 0.316, 0.019), (0.49, 0.258,
+        0.007)),
         lift=0.06, hairs=120,
     ),
     ears=Ears(centre=(0.715, 0.02, -0.06), size=(0.115, 0.185), stand_off=22),

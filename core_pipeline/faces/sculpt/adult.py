@@ -12,7 +12,7 @@ POSES = {
         tongue=TongueBend(((-0.25, -0.60), (-0.02, -0.49), (-0.045, -0.31), (-0.055, -0.22))),
     ),
     "W": MouthPose(
-        rounded=1.0, hole=(0.045, 0.045), ring=0.068, forward=0.095,
+        rounded=1.0, hole=(0.045, 0.045), ring=0.066, forward=0.085,
         upper_teeth=(0.09, -0.06), lower_teeth=(-0.065, -0.06),
         tongue=TongueBend(((-0.28, -0.62), (-0.14, -0.58), (-0.17, -0.46), (-0.17, -0.37))),
     ),

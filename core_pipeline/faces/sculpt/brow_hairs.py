@@ -10,7 +10,7 @@ from core_pipeline.faces.sculpt.piece import Piece, mirror, paint
 from core_pipeline.faces.sculpt.sdf import Array, Solid, smoothstep
 
 STEPS = np.array([0.0, 0.4, 0.75, 1.0])
-WIDE = 0.0042
+WIDE = 0.0052
 
 
 def brow_hairs(character: Character, clay: Solid) -> list[Piece]:
@@ -37,11 +37,11 @@ def _hairs(character: Character, clay: Solid, lift: float) -> Array:
     x, y, half = (PchipInterpolator(knots, known[:, i])(u) for i in range(3))
     half = half * (0.45 + 0.55 * smoothstep(0.0, 0.16, u))
     slope = np.gradient(y, x)
-    lean = np.radians(30 * (1 - u) ** 2 + 40 * np.exp(-u / 0.05) - 12 * u - 24 * level) + 0.8 * np.arctan(slope)
-    length = (0.046 + 0.026 * np.sin(np.pi * u)) * (0.7 + 0.6 * ((number * 0.754878) % 1))
+    lean = np.radians(30 * (1 - u) ** 2 + 40 * np.exp(-u / 0.05) - 12 * u - 11 * level) + 0.8 * np.arctan(slope)
+    length = (0.042 + 0.022 * np.sin(np.pi * u)) * (0.7 + 0.6 * ((number * 0.754878) % 1))
     root_y = y + level * 0.72 * half + character.eyes.centre[1] + lift
     length = length * (1 - 0.5 * smoothstep(0.75, 1.0, u))
-    bend = -0.25 * level * STEPS[:, None]
+    bend = -0.18 * level * STEPS[:, None]
     px = x + STEPS[:, None] * length * np.cos(lean + bend)
     py = root_y + STEPS[:, None] * length * np.sin(lean + bend)
     wide = WIDE * np.array([0.7, 1.0, 0.7, 0.0])[:, None]

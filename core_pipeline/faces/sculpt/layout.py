@@ -16,6 +16,8 @@ from scipy.spatial import Delaunay
 from core_pipeline.faces.sculpt.sdf import Array
 
 Indices = NDArray[np.int64]
+#: What breaks ties between equally right triangles, in radians of the map.
+_NUDGE = 1e-9
 RIM = 2.7
 CROWDED = 0.9
 
@@ -60,13 +62,28 @@ def lay_out(border: Array, eye_rings: list[Array], spacing: Callable[[Array], Ar
 def _meshed(fixed: Array, half: Array, loop: Array, spacing: Callable[[Array], Array]) -> tuple[Array, Indices]:
     """All the right half's points, and its triangles without those inside mouth and eye."""
     points = _scatter(fixed, half, loop, spacing)
-    triangles = Delaunay(points).simplices.astype(np.int64)
+    triangles = _triangulated(points)
     a, b, c = (points[triangles[:, i]] for i in range(3))
     area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
     triangles[area < 0] = triangles[area < 0][:, ::-1]
     middle = (a + b + c) / 3
     kept = (np.abs(area) > 1e-9) & ~_inside(middle, half) & ~_inside(middle, loop)
     return points, triangles[kept]
+
+
+def _triangulated(points: Array) -> Indices:
+    """(m, 3) Delaunay triangles, the same whatever version of the library finds them.
+
+    Rings and mirrored points lie on common circles, where several triangulations are right: a nudge, far below
+    what can be seen, leaves one. The order is our own too.
+    """
+    number = np.arange(len(points))[:, None]
+    nudge = _NUDGE * ((number * (0.7548776662466927, 0.5698402909980532)) % 1 - 0.5)
+    triangles = Delaunay(points + nudge).simplices.astype(np.int64)
+    start = triangles.argmin(axis=1)[:, None]
+    triangles = np.take_along_axis(triangles, (start + np.arange(3)) % 3, axis=1)
+    ordered: Indices = triangles[np.lexsort(np.sort(triangles, axis=1).T[::-1])]
+    return ordered
 
 
 def _uncrowded(fixed: Array, half: Array, loop: Array) -> Array:
@@ -126,7 +143,7 @@ def _scatter(fixed: Array, lips: Array, loop: Array, spacing: Callable[[Array], 
     points = points[:count]
     on_axis = points[:, 0] == 0.0
     for _ in range(3):
-        triangles = Delaunay(points).simplices
+        triangles = _triangulated(points)
         middle_of = _neighbour_mean(points, triangles)
         middle_of[on_axis, 0] = 0.0
         points[len(fixed) :] = middle_of[len(fixed) :]

@@ -36,7 +36,7 @@ CLAY = (
 
 HAIR = Hair(
     hairline=(
-        (0, 76), (24, 75), (38, 73), (50, 78), (60, 92), (68, 110), (76, 114), (84, 94), (94, 86), (108, 90),
+        (0, 83), (24, 81), (38, 78), (50, 82), (60, 94), (68, 110), (76, 114), (84, 94), (94, 86), (108, 90),
         (118, 110), (140, 118), (180, 120),
     ),
     crown=(0.0, 0.84, -0.40), front=0.09, top=0.11, back=0.04, quiff=0.07, clumps=17, twist=0.8, gloss=0.22,
@@ -55,18 +55,18 @@ MAN = Character(
     hair=HAIR,
     rest_tongue=REST,
     mouth=Mouth(
-        height=-0.48, half_width=0.27, smile=0.025, upper=0.034, lower=0.052, upper_depth=0.022, lower_depth=0.030,
+        height=-0.48, half_width=0.27, smile=0.042, upper=0.038, lower=0.055, upper_depth=0.022, lower_depth=0.030,
         lap=0.03, bow=1.0, rim=0.013, hinge=(0.0, -0.14, -0.08), bag=(0.33, 0.21, 0.56),
     ),
     teeth=Dentition(half_width=0.255, depth=0.37, behind_lips=0.08, edge=-0.022, upper_height=0.12, lower_height=0.105),
     eyes=Eyes(
-        centre=(0.295, 0.16, 0.545), radius=0.20, half_width=0.88, upper=0.40, lower=0.32, slant=0.02, yaw=10,
-        skew=(-0.04, 0.10), spread=1.2, ease=1.0, shut=0.16, iris=28, pupil=11.5, iris_colour=(0.30, 0.17, 0.08),
+        centre=(0.295, 0.16, 0.545), radius=0.20, half_width=0.88, upper=0.40, lower=0.28, slant=0.03, yaw=10,
+        skew=(-0.04, 0.10), spread=1.2, ease=1.0, shut=0.16, iris=28, pupil=11.5, iris_colour=(0.40, 0.24, 0.11),
         lash=0.85, crease=0.55,
     ),
     brows=Brows(
-        line=((0.09, 0.232, 0.020), (0.18, 0.245, 0.032), (0.30, 0.258, 0.034), (0.41, 0.245, 0.026), (0.50, 0.185,
-        0.010)),
+        line=((0.10, 0.222, 0.018), (0.18, 0.243, 0.031), (0.30, 0.272, 0.033), (0.41, 0.262, 0.024), (0.50, 0.195,
+        0.008)),
         lift=0.06,
     ),
     ears=Ears(centre=(0.745, 0.02, -0.06), size=(0.13, 0.20), stand_off=24),

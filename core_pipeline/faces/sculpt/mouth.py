@@ -119,7 +119,7 @@ class Lips:
             thickness = thickness + pose.rounded * (pose.ring - thickness)
             depth = depth + pose.rounded * (0.6 * pose.ring - depth)
             v = v * np.where(n < -0.6, 1 - 0.75 * pose.rounded, 1)
-            sag = sag * (1 - pose.rounded) - pose.rounded * 0.95 * pose.ring * np.clip(v, 0, None) ** 2
+            sag = sag * (1 - pose.rounded) - pose.rounded * 0.55 * pose.ring * np.clip(v, 0, None) ** 2
         roll = np.where(self.upper, pose.roll_upper, pose.roll_lower) * smoothstep(0, 0.8, self.middle)
         # the lip's edge rolls most; its border to the face and the gum side hardly
         firm = np.where(n > 0, smoothstep(0.55, 1.2, PROFILE[:, 0, None]), smoothstep(-0.6, -1.4, n))

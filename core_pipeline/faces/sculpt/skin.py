@@ -233,9 +233,13 @@ class Skin:
         near = self._ratio < REACH
         right = face * np.where(face[:, :1] < 0, (-1, 1, 1), (1, 1, 1))
         closed = self.lid.close(right[near], self.lid.share(self._ratio[near]))
-        shut = face.copy()
-        shut[near] = closed * np.where(face[near, :1] < 0, (-1, 1, 1), (1, 1, 1))
-        return shut
+        moved = np.zeros_like(face)
+        moved[near] = closed * np.where(face[near, :1] < 0, (-1, 1, 1), (1, 1, 1)) - face[near]
+        # away from the edge the skin follows as a whole: each ray of the mesh on its own would show as a pleat
+        loose = (0.6 * smoothstep(1.05, 1.35, self._ratio) * (self._ratio < REACH + 0.6))[:, None]
+        for _ in range(16):
+            moved = moved + loose * (self.layout.neighbour_mean(moved) - moved)
+        return face + moved
 
     def _brow_up(self, face: Array) -> Array:
         eyes = self.character.eyes

@@ -103,11 +103,14 @@ class _Row:
         palette = self.character.palette
         base = linear(palette.teeth if is_tooth else palette.gums)
         depth = self.centre[2] - points[:, 2]
-        shade = 1 - 0.85 * smoothstep(0.16, 0.50, depth)
+        shade = 1 - 0.9 * smoothstep(0.10, 0.33, depth)
         if is_tooth:
             # warmer towards the gum, and towards the back
             warm = 0.16 * np.tile(1 - TOOTH[:, 1].clip(0, 1), len(self.along))
             warm = warm + 0.14 * np.repeat(np.abs(self.along), len(TOOTH))
+            # the tongue's side lies in the mouth's own shade, most of all far back
+            inside = smoothstep(0.4, -0.6, np.tile(TOOTH[:, 0], len(self.along)))
+            shade = shade * (1 - (0.35 + 0.4 * np.repeat(np.abs(self.along), len(TOOTH))) * inside)
             base = base * (1 - palette.variation * warm[:, None] * np.array([0.35, 0.75, 1.6]))
             shade = shade * (1 - 0.22 * np.repeat(smoothstep(0.8, 1.0, self.from_middle), len(TOOTH)))
         return np.column_stack([base * shade[:, None], np.full(len(points), 0.85 if is_tooth else 0.6)])

@@ -39,7 +39,7 @@ POSES = {
         tongue=TongueBend(((-0.30, -0.68), (-0.02, -0.56), (-0.05, -0.36), (-0.065, -0.25))),
     ),
     "W": MouthPose(
-        rounded=1.0, hole=(0.058, 0.058), ring=0.085, forward=0.13,
+        rounded=1.0, hole=(0.058, 0.058), ring=0.082, forward=0.115,
         upper_teeth=(0.11, -0.07), lower_teeth=(-0.08, -0.07),
         tongue=TongueBend(((-0.34, -0.70), (-0.16, -0.66), (-0.20, -0.52), (-0.20, -0.42))),
     ),

@@ -26,8 +26,8 @@ CLAY = (
     Blob((0, -0.42, 0.55), (0.27, 0.24, 0.26), 0.20),  # the round under nose and lips
     Blob((0, -0.69, 0.585), (0.16, 0.13, 0.17), 0.24),  # chin
     Blob((0.26, 0.37, 0.58), (0.22, 0.06, 0.10), 0.14, mirrored=True),  # brow
-    Blob((0.31, 0.16, 0.87), (0.16, 0.12, 0.16), 0.12, mirrored=True, carve=True),  # eye sockets
-    Blob((0, 0.08, 0.735), (0.048, 0.27, 0.10), 0.14),  # bridge of the nose
+    Blob((0.32, 0.16, 0.885), (0.15, 0.115, 0.155), 0.13, mirrored=True, carve=True),  # eye sockets
+    Blob((0, 0.08, 0.73), (0.056, 0.27, 0.10), 0.17),  # bridge of the nose
     Blob((0, -0.105, 0.885), (0.066, 0.058, 0.075), 0.09),  # tip of the nose
     Blob((0.068, -0.145, 0.81), (0.044, 0.042, 0.062), 0.07, mirrored=True),  # its wings
     Blob((0, -0.28, 0.86), (0.018, 0.06, 0.05), 0.05, carve=True),  # the groove above the lip
@@ -50,7 +50,15 @@ HAIR = Hair(
                 ((-0.06, 0.86, -0.92), (-0.04, 0.72, -1.02), (-0.04, 0.30, -1.12), (-0.04, -0.25, -1.08),
                  (-0.04, -0.85, -0.96), (-0.04, -1.38, -0.74)),
             ),
-            thickness=0.10, clumps=8, columns=41, rows=17, wave=0.045,
+            thickness=0.10, clumps=8, columns=35, rows=17, wave=0.045,
+        ),
+        Sheet(  # curtains of a fringe, from the parting to the temples
+            guides=(
+                ((0.00, 0.89, 0.57), (0.20, 0.80, 0.71), (0.42, 0.52, 0.70), (0.59, 0.14, 0.59), (0.65, -0.24, 0.50)),
+                ((0.01, 0.95, 0.52), (0.25, 0.87, 0.64), (0.50, 0.60, 0.62), (0.645, 0.22, 0.51), (0.69, -0.16, 0.44)),
+                ((0.02, 1.01, 0.45), (0.30, 0.94, 0.53), (0.59, 0.68, 0.49), (0.70, 0.30, 0.41), (0.73, -0.06, 0.37)),
+            ),
+            thickness=0.06, height=0.04, clumps=3, ragged=0.2, columns=11, rows=12,
         ),
     ),
 )  # fmt: skip
@@ -63,18 +71,18 @@ WOMAN = Character(
     hair=HAIR,
     rest_tongue=REST,
     mouth=Mouth(
-        height=-0.44, half_width=0.255, smile=0.045, upper=0.046, lower=0.066, upper_depth=0.025, lower_depth=0.032,
+        height=-0.44, half_width=0.255, smile=0.052, upper=0.048, lower=0.067, upper_depth=0.025, lower_depth=0.032,
         lap=0.03, bow=1.5, rim=0.015, hinge=(0.0, -0.12, -0.08), bag=(0.32, 0.20, 0.55),
     ),
     teeth=Dentition(half_width=0.245, depth=0.36, behind_lips=0.08, edge=-0.022, upper_height=0.115, lower_height=0.10),
     eyes=Eyes(
-        centre=(0.30, 0.165, 0.50), radius=0.235, half_width=0.86, upper=0.50, lower=0.36, slant=0.01, yaw=10,
-        skew=(-0.06, 0.12), iris=29, pupil=11.5, spread=1.0, ease=1.0, shut=0.16, iris_colour=(0.30, 0.46, 0.24),
+        centre=(0.30, 0.165, 0.50), radius=0.235, half_width=0.86, upper=0.43, lower=0.31, slant=0.03, yaw=10,
+        skew=(-0.06, 0.12), iris=31, pupil=13, spread=1.0, ease=1.0, shut=0.16, iris_colour=(0.30, 0.46, 0.24),
         crease=0.8, lashes=22, lash_length=0.19,
     ),
     brows=Brows(
-        line=((0.12, 0.275, 0.016), (0.20, 0.315, 0.023), (0.31, 0.345, 0.021),
-              (0.42, 0.32, 0.014), (0.51, 0.255, 0.006)),
+        line=((0.12, 0.272, 0.018), (0.20, 0.300, 0.025), (0.31, 0.322, 0.023),
+              (0.42, 0.300, 0.016), (0.51, 0.240, 0.006)),
         lift=0.06,
     ),
     ears=None,
@@ -89,6 +97,6 @@ WOMAN = Character(
     nose=(0.0, -0.12, 0.89),
     nostrils=(0.038, -0.178, 0.875),
     lip_columns=64,
-    density=1.12,
+    density=1.06,
     sky=0.75,
 )  # fmt: skip

@@ -92,6 +92,14 @@ def test_no_neutral_or_two(tmp_path):
     assert "both basis.obj and neutral.obj" in refused(tmp_path, neutral=QUAD, basis=QUAD)
 
 
+def test_other_heads_are_no_expressions(tmp_path):
+    found, notes = read_obj_folder(
+        folder(tmp_path, generic_neutral_mesh=QUAD, jawOpen=LIFTED, identity000=LIFTED, identity_12=LIFTED)
+    )
+    assert found.shapes == ("jawOpen",)
+    assert notes == ("2 identity files make other heads, not expressions: they are left out.",)
+
+
 def test_no_poses(tmp_path):
     assert "no poses beside neutral.obj" in refused(tmp_path, neutral=QUAD)
 
@@ -134,7 +142,7 @@ def test_sizes_are_checked_before_memory_is_taken(tmp_path, monkeypatch):
     huge = folder(tmp_path, up=LIFTED) / "neutral.obj"
     with huge.open("wb") as file:
         file.truncate(MAX_TEXT + 1)
-    assert "larger than 512 MB" in refused(tmp_path)
+    assert "larger than 128 MB" in refused(tmp_path)
     huge.write_text(QUAD)
     for limit, value, why in (
         ("MAX_LINES", 4, "more than 4 lines"),
@@ -147,16 +155,22 @@ def test_sizes_are_checked_before_memory_is_taken(tmp_path, monkeypatch):
             assert why in refused(tmp_path)
 
 
-def test_opening_can_be_cancelled(tmp_path):
-    asked = []
+def test_it_tells_how_far_it_is_and_can_be_ended_there(tmp_path):
+    shares = []
 
-    def second_time():
-        asked.append(1)
-        return len(asked) > 1
+    def told(share):
+        shares.append(share)
+        if len(shares) == end:
+            raise UserError("cancelled")
 
-    with pytest.raises(UserError, match="cancelled"):
-        read_obj_folder(folder(tmp_path, neutral=QUAD, a=LIFTED, b=LIFTED), second_time)
-    assert len(asked) == 2
+    end = 0
+    read_obj_folder(folder(tmp_path, neutral=QUAD, a=LIFTED, b=LIFTED), told)
+    assert shares == [0, 0.25, 0.5, 0.75, 1]
+    for end in (1, 2, 4):
+        shares.clear()
+        with pytest.raises(UserError, match="cancelled"):
+            read_obj_folder(tmp_path, told)
+        assert len(shares) == end
 
 
 # --- colours

@@ -7,11 +7,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app import resources
-from core_pipeline.compare import differences, distance, pair_differs
 from core_pipeline.curve_set import Bigram, CurveSet
 from core_pipeline.curves import Curve
 from core_pipeline.files import curve_set_json
-from core_pipeline.files.curve_set_merge import decided, merge, open_conflicts
+from core_pipeline.files.curve_set_diff import differences, distance, pair_differs
+from core_pipeline.files.curve_set_merge import decided, merge, open_conflicts, with_theirs
 from core_pipeline.phone_sets import added, removed
 from core_pipeline.settings import Settings
 from tests.helpers import strategies as ours_
@@ -81,6 +81,26 @@ def test_a_clash_keeps_ours_and_stores_theirs_until_it_is_decided() -> None:
     assert "conflicts" not in decided(bigram, {"open"}).extra
     assert "conflicts" not in decided(bigram).extra
     assert decided(Bigram()).extra == {}
+
+
+def test_the_other_side_can_be_looked_at_and_taken() -> None:
+    bigram = merge(BASE, with_curve(BASE, "open", TWO), with_curve(BASE, "open", THREE)).curve_set.bigrams[F_AH]
+    theirs = with_theirs(bigram)
+    assert theirs.curves["open"].same_as(THREE)
+    assert with_theirs(theirs).curves["open"].same_as(TWO)
+    assert with_theirs(decided(theirs)) is not theirs
+    plain = decided(theirs)
+    assert with_theirs(plain) is plain
+    for odd in (
+        None,
+        [],
+        {"open": 3},
+        {"open": {"theirs": "x"}},
+        {"open": {"theirs": [[0]]}},
+        {"open": {"theirs": [[2, 2]]}},
+    ):
+        strange = replace(bigram, extra={"conflicts": odd})
+        assert with_theirs(strange) is strange
 
 
 def test_what_one_deletes_and_the_other_changes_is_kept() -> None:

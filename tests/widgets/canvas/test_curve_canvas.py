@@ -247,11 +247,11 @@ def test_a_value_from_outside_is_not_answered_with_a_wish(hand, canvas):
     assert not hand.edits
 
 
-def test_comma_and_point_walk_the_keys(hand, canvas):
-    hand.key(Key.Key_Period)
-    hand.key(Key.Key_Period)
+def test_brackets_walk_the_keys(hand, canvas):
+    hand.key(Key.Key_BracketRight)
+    hand.key(Key.Key_BracketRight)
     assert canvas.selection == {("FV", 1)}
-    hand.key(Key.Key_Comma)
+    hand.key(Key.Key_BracketLeft)
     assert canvas.selection == {("FV", 0)}
 
 

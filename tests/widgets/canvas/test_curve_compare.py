@@ -6,6 +6,7 @@ from PySide6.QtCore import QPoint, Qt
 
 from core_pipeline.curves import Curve
 from tests.helpers.curve_hand import ALT, CTRL, FV, LEFT, OPEN, SHIFT
+from widgets import theme
 from widgets.canvas.curve_edits import blended
 from widgets.canvas.curve_versions import CurveVersions
 
@@ -228,7 +229,7 @@ def test_a_click_on_the_canvas_keeps_what_the_slider_shows(hand, ghosted, qtbot)
     assert len(hand.edits) == 1
     assert not ghosted.blend_bar.isVisible()
     assert not ghosted.busy
-    qtbot.keyClick(ghosted, Key.Key_Period)
+    qtbot.keyClick(ghosted, Key.Key_BracketRight)
     assert ghosted.selection == {("FV", 0)}
 
 
@@ -245,3 +246,16 @@ def test_blending_keeps_both_ends_and_as_many_keys_slide_key_by_key():
 def test_shift_does_not_hide_the_backslash_of_another_keyboard(hand, ghosted):
     hand.key(Key.Key_Backslash, SHIFT, "\\")
     assert len(hand.edits) == 1
+
+
+def test_the_ghost_of_an_empty_bigram_has_its_poses_colours_whatever_set_it_is_from(qtbot, canvas):
+    """Dashed where nothing is drawn; curves of a set with other poses are left out."""
+    canvas.set_curves({})
+    canvas.set_suggestion("suggested from 3 in its row, 2 in its column")
+    canvas.set_ghost({"FV": FV, "beak": FV})
+    with_ghost = canvas.viewport().grab().toImage()
+    assert theme.pose_colour("FV").red() > theme.pose_colour("FV").green() + 50
+    colours = [with_ghost.pixelColor(x, y) for x in range(with_ghost.width()) for y in range(with_ghost.height())]
+    assert sum(colour.red() > colour.green() + 20 for colour in colours) > 50
+    canvas.set_suggestion("")
+    assert canvas.viewport().grab().toImage() != with_ghost

@@ -99,6 +99,40 @@ def test_hints_tell_the_keys_of_the_present_map(hand, canvas, name):
     assert "Enter keeps · X/Y or Shift: one axis" in hand.hints[-1]
 
 
+@pytest.mark.parametrize("name", KEYMAPS)
+@pytest.mark.parametrize("gesture", ["grab", "scale"])
+@pytest.mark.parametrize("axis", ["X", "Y"])
+def test_x_and_y_keep_to_one_axis_in_each_map(hand, canvas, name, gesture, axis):
+    canvas.set_keymap(name)
+    canvas.select(PEAK)
+    press(hand, KEYMAPS[name][gesture][0])
+    press(hand, axis)
+    for key in ("Right", "Right", "Up", "Up"):
+        press(hand, key)
+    press(hand, "Return")
+    ((changes, _),) = hand.edits
+    assert (changes["FV"].t.tolist() != FV.t.tolist()) == (axis == "X")
+    assert (changes["FV"].v.tolist() != FV.v.tolist()) == (axis == "Y")
+
+
+@pytest.mark.parametrize("name", KEYMAPS)
+def test_reversing_mirroring_copying_and_other_versions_in_each_map(hand, canvas, name):
+    canvas.set_keymap(name)
+    keymap = KEYMAPS[name]
+    canvas.set_ghost({"FV": FV.without([1])})
+    canvas.set_neighbours({"F – Aa": {"FV": FV.without([2])}})
+    for action in ("reverse", "mirror", "copy", "paste", "paste_reversed", "swap"):
+        press(hand, keymap[action][0])
+    assert [label for _, label in hand.edits] == [
+        "Reverse keys", "Mirror values", "Paste keys", "Swap with previous version",
+    ]  # fmt: skip
+    for action, towards in (("slide", 0), ("duplicate", 100)):
+        press(hand, keymap[action][0])
+        assert canvas.blend_bar.slider.value() == towards
+        press(hand, "Esc")
+        assert not canvas.busy
+
+
 def test_x_deletes_in_the_blender_map_and_keeps_an_axis_during_a_gesture(hand, canvas):
     canvas.set_keymap("Blender")
     canvas.select(PEAK)

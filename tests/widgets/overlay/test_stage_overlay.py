@@ -360,11 +360,11 @@ def test_the_final_curve_stands_out(overlay):
 
 
 def test_the_ghost_is_grey_and_goes_again(overlay):
-    plain = count(overlay, theme.GHOST, near=14)
+    plain = count(overlay, theme.MUTED, near=14)
     overlay.set_ghost(sentence(curves=curve_set(height=0.4)))
-    assert count(overlay, theme.GHOST, near=14) > plain + 50
+    assert count(overlay, theme.MUTED, near=14) > plain + 50
     overlay.set_ghost(None)
-    assert count(overlay, theme.GHOST, near=14) == plain
+    assert count(overlay, theme.MUTED, near=14) == plain
 
 
 def test_every_occurrence_of_the_open_bigram_is_tinted(overlay):

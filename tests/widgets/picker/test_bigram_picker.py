@@ -321,6 +321,23 @@ def test_escape_ends_the_search(qtbot, picker):
     assert colour(picker, ("kg", "kg")) == theme.STATUS_COLOURS["approved"]
 
 
+def test_enter_on_one_bigram_asks_to_work_on_it_and_on_several_steps_on(qtbot, picker, picks):
+    entered = collect(picker.entered)
+    qtbot.keyClicks(picker.search, "f ah")
+    assert not entered
+    qtbot.keyClick(picker.search, Qt.Key.Key_Return)
+    assert len(entered) == 1
+    picker.search.clear()
+    qtbot.keyClicks(picker.search, "f ah d")
+    qtbot.keyClick(picker.search, Qt.Key.Key_Return)
+    assert len(entered) == 1
+    picker.set_current(F_AH)
+    qtbot.keyClick(picker.grid, Qt.Key.Key_Down)
+    assert len(entered) == 1
+    qtbot.keyClick(picker.grid, Qt.Key.Key_Return)
+    assert len(entered) == 2
+
+
 def test_down_goes_from_the_search_to_the_square(qtbot, picker):
     picker.search.setFocus()
     qtbot.keyClick(picker.search, Qt.Key.Key_Down)

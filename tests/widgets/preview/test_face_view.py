@@ -7,6 +7,7 @@ from PySide6.QtWidgets import QLabel, QPushButton, QToolButton
 from pytestqt.qtbot import QtBot
 
 from widgets.preview.face_view import FaceView
+from widgets.preview.name_tag import Tag
 
 CENTRE = QPoint(150, 100)
 
@@ -34,10 +35,6 @@ def halves(width, height, left="#cc2200", right="#0022cc"):
         for y in range(height):
             image.setPixelColor(x, y, QColor(right))
     return image
-
-
-def button(view, name):
-    return next(found for found in view.findChildren(QToolButton) if found.accessibleName() == name)
 
 
 def drag(qtbot, view, which, modifier=Qt.KeyboardModifier.NoModifier):
@@ -98,26 +95,17 @@ def test_the_wheel_zooms_in_steps(qapp, view, delta, steps):
     assert zoomed == [(steps,)]
 
 
-def test_double_click_home_and_button_want_the_reset(qtbot, view):
+def test_double_click_and_home_want_the_reset(qtbot, view):
     reset = collect(view.reset_wanted)
     qtbot.mouseDClick(view, Qt.MouseButton.LeftButton, pos=CENTRE)
     qtbot.keyClick(view, Qt.Key.Key_Home)
-    qtbot.mouseClick(button(view, "Reset the view"), Qt.MouseButton.LeftButton)
-    assert len(reset) == 3
+    assert len(reset) == 2
 
 
-def test_button_and_key_want_the_cut_away(qtbot, view):
-    wanted = collect(view.cutaway_wanted)
-    qtbot.mouseClick(button(view, "Cut-away"), Qt.MouseButton.LeftButton)
-    qtbot.keyClick(view, Qt.Key.Key_C)
-    assert wanted == [(True,), (False,)]
-
-
-def test_showing_the_cut_away_is_not_a_wish(view):
-    wanted = collect(view.cutaway_wanted)
-    view.set_cutaway(True)
-    assert button(view, "Cut-away").isChecked()
-    assert wanted == []
+def test_a_hand_on_the_face_is_told_while_it_holds(qtbot, view):
+    held = collect(view.held)
+    drag(qtbot, view, Qt.MouseButton.LeftButton)
+    assert held == [(True,), (False,)]
 
 
 def test_keys_can_what_the_mouse_can(qtbot, view):
@@ -165,13 +153,70 @@ def test_a_frame_of_another_shape_keeps_its_proportions(view):
     assert sum(row) == pytest.approx(shown.width() / 2, abs=2)
 
 
-def test_the_caption_is_painted_and_can_be_taken_away(view):
+# ── tags ──
+
+
+def test_each_face_has_its_tag_in_its_own_part_of_the_picture(view):
+    view.set_tags([Tag("Toon"), Tag("Ada"), Tag("A rig with a very long name indeed")])
+    for number, tag in enumerate(view.name_tags):
+        assert 100 * number <= tag.x()
+        assert tag.geometry().right() < 100 * (number + 1)
+        assert tag.geometry().bottom() < view.height()
+        assert tag.isVisible()
+    assert view.name_tags[0].name.text() == "Toon"
+    assert view.name_tags[2].name.text().endswith("…")
+
+
+@pytest.mark.parametrize("size", [(280, 240), (160, 160), (700, 300), (200, 640)])
+def test_tags_stay_in_the_picture_and_apart_at_any_size(qtbot, view, size):
+    view.set_tags([Tag("Toon"), Tag("Woman"), Tag("Crab", "It cannot make W.", mute=True)])
+    view.resize(*size)
+    boxes = [tag.geometry() for tag in view.name_tags]
+    assert all(view.rect().contains(box) for box in boxes)
+    assert not any(a.intersects(b) for i, a in enumerate(boxes) for b in boxes[:i])
+
+
+def test_name_scissors_and_cross_tell_which_face(qtbot, view):
+    view.resize(500, 300)
+    face, cut, away = collect(view.face_wanted), collect(view.cutaway_wanted), collect(view.away_wanted)
+    view.set_tags([Tag("Toon"), Tag("Ada", cut=True)])
+    for button in (view.name_tags[1].name, view.name_tags[1].cut, view.name_tags[1].away):
+        qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+    assert (face, cut, away) == ([(1,)], [(1, False)], [(1,)])
+
+
+def test_a_face_alone_cannot_be_sent_away(view):
+    view.set_tags([Tag("Toon")])
+    assert view.name_tags[0].away.isHidden()
+    view.set_tags([Tag("Toon"), Tag("Ada")])
+    assert not view.name_tags[0].away.isHidden()
+
+
+def test_c_cuts_all_heads_open_and_closes_them_again(qtbot, view):
+    cut = collect(view.cutaway_wanted)
+    view.set_tags([Tag("Toon", cut=True), Tag("Ada")])
+    qtbot.keyClick(view, Qt.Key.Key_C)
+    view.set_tags([Tag("Toon", cut=True), Tag("Ada", cut=True)])
+    qtbot.keyClick(view, Qt.Key.Key_C)
+    assert cut == [(0, True), (1, True), (0, False), (1, False)]
+
+
+def test_showing_tags_is_not_a_wish(view):
+    cut = collect(view.cutaway_wanted)
+    view.set_tags([Tag("Toon", cut=True)])
+    assert view.name_tags[0].cut.isChecked()
+    assert cut == []
+
+
+def test_a_face_that_can_say_nothing_of_this_says_so_over_itself(view):
     view.set_frame(halves(300, 200, "#000000", "#000000"))
-    plain = view.grab().toImage()
-    view.set_caption("Toon · 512 × 512 · 58 fps")
-    assert view.grab().toImage() != plain
-    view.set_caption("")
-    assert view.grab().toImage() == plain
+    view.set_tags([Tag("Toon"), Tag("Crab", "Not available on this face: open, W", mute=True)])
+    shown = view.grab().toImage()
+    bright = [x for x in range(300) for y in range(30, 160) if shown.pixelColor(x, y).red() > 120]
+    assert bright
+    assert min(bright) >= 150, "over the crab alone"
+    assert "open, W" in view.name_tags[1].name.toolTip()
+    assert "open, W" in view.name_tags[1].name.accessibleDescription()
 
 
 def test_a_message_says_why_and_offers_to_try_again(qtbot, view):
@@ -194,5 +239,6 @@ def test_without_retry_there_is_no_button_and_a_frame_clears_the_message(view):
 
 
 def test_every_control_has_a_name_for_screen_readers(view):
+    view.set_tags([Tag("Toon"), Tag("Ada")])
     for control in (view, *view.findChildren(QToolButton), view.findChild(QPushButton), view.findChild(QLabel)):
         assert control.accessibleName()

@@ -1,0 +1,80 @@
+"""Faces are read in a thread of their own: the latest wish counts, and long reading says how far it is."""
+
+import threading
+
+import numpy as np
+import pytest
+
+from app import faces as module
+from app.faces import Faces
+from core_pipeline.poses import FACEFX
+from tests.helpers.rigs import NAMES, as_glb, as_objs, head
+
+
+@pytest.fixture
+def faces(qtbot, tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    faces = Faces()
+    yield faces
+    faces.close()
+
+
+def test_a_rig_is_read_beside_the_thread_of_the_window(faces, qtbot, tmp_path, monkeypatch):
+    path = as_glb(head(NAMES["arkit52"]), tmp_path / "head.glb")
+    readers = []
+    reads = module.open_face
+    monkeypatch.setattr(
+        module, "open_face", lambda *given: readers.append(threading.current_thread().name) or reads(*given)
+    )
+    with qtbot.waitSignal(faces.opened) as caught:
+        faces.open(path, FACEFX)
+    assert readers == ["face reader"]
+    assert caught.args[0].retarget.preset == "arkit52"
+
+
+def test_long_reading_says_how_far_it_is(faces, qtbot, tmp_path, monkeypatch):
+    monkeypatch.setattr(module, "QUIET", 0.0)
+    told = []
+    faces.reading.connect(told.append)
+    with qtbot.waitSignal(faces.opened):
+        faces.open(as_objs(head(["jawOpen", "smile"]), tmp_path / "poses"), FACEFX)
+    assert told[0] == "poses: 0 % read"
+    assert "poses: 50 % read" in told
+    assert told[-1] == "poses: 100 % read"
+
+
+def test_a_newer_wish_ends_the_reading_of_an_older_one(faces, qtbot, tmp_path, monkeypatch):
+    slow, quick = as_objs(head(), tmp_path / "slow"), as_glb(head(), tmp_path / "quick.glb")
+    begun, go_on = threading.Event(), threading.Event()
+
+    def told(number, path):
+        def wait(_share):
+            if path == slow:
+                begun.set()
+                assert go_on.wait(20)
+
+        return wait
+
+    monkeypatch.setattr(faces, "_told", told)
+    opened, failed = [], []
+    faces.opened.connect(lambda found: opened.append(found.face.title))
+    faces.failed.connect(failed.append)
+    faces.open(slow, FACEFX)
+    assert begun.wait(20)
+    with qtbot.waitSignal(faces.opened):
+        faces.open(quick, FACEFX)
+    go_on.set()
+    faces.close()
+    qtbot.waitUntil(lambda: not any(thread.is_alive() for thread in faces._threads))
+    assert opened == ["quick"]
+    assert failed == []
+
+
+def test_a_bad_rig_is_a_sentence_and_the_next_one_opens(faces, qtbot, tmp_path):
+    (tmp_path / "bad.glb").write_bytes(b"glTF" + bytes(40))
+    with qtbot.waitSignal(faces.failed) as caught:
+        faces.open(tmp_path / "bad.glb", FACEFX)
+    assert "glTF version 0" in caught.args[0]
+    with qtbot.waitSignal(faces.opened) as caught:
+        faces.open(as_glb(head(), tmp_path / "good.glb"), FACEFX)
+    assert np.isfinite(caught.args[0].face.positions).all()

@@ -1,0 +1,1 @@
+"""What is said: recordings, their words, the voice, phone names, the microphone."""
