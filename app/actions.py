@@ -72,7 +72,7 @@ class Actions:
             "file.save-as", tr("Save &As…"), "Ctrl+Shift+S", tr("Save the curve set in another file")
         )
         self.restore = menu.add(
-            "file.restore", tr("&Restore a Backup…"), (), tr("Go back to what was saved before, as one undo step")
+            "file.restore", tr("Restore a &Backup…"), (), tr("Go back to what was saved before, as one undo step")
         )
         menu.line()
         self.import_script = menu.add(

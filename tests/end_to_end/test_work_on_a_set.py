@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QMenu
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app import resources
@@ -307,10 +307,11 @@ def test_time_is_counted_while_there_is_work(editor: Editor) -> None:
     assert editor.window.header._spent == f"{spent.seconds[F_AH] // 60}:{spent.seconds[F_AH] % 60:02}"
 
 
-def test_no_two_commands_of_the_whole_window_share_a_key_or_a_mnemonic(editor: Editor) -> None:
+def test_no_two_commands_of_the_whole_window_share_a_key(editor: Editor) -> None:
     keys = [key for entry in editor.window.actions_.registry for key in entry.default]
     assert {key for key in keys if keys.count(key) > 1} == set()
-    for menu in editor.window.findChildren(QMenu):
-        texts = [action.text().casefold() for action in menu.actions() if "&" in action.text()]
+    actions = editor.window.actions_
+    for menu in (actions.bigram_menu, actions.work_menu, actions.tools_menu):
+        texts = [action.text().casefold() for action in menu.menu.actions() if "&" in action.text()]
         letters = [text[text.index("&") + 1] for text in texts]
         assert len(letters) == len(set(letters)), texts
