@@ -214,7 +214,7 @@ class Actions:
         )
         menu.line()
         self.revert = menu.add(
-            "bigram.revert", tr("Re&vert to Base"), (), tr("The open bigram as the set below has it")
+            "bigram.revert", tr("Revert t&o Base"), (), tr("The open bigram as the set below has it")
         )
         self.theirs = menu.add(
             "bigram.theirs",
