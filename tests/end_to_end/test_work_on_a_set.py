@@ -315,3 +315,28 @@ def test_no_two_commands_of_the_whole_window_share_a_key(editor: Editor) -> None
         texts = [action.text().casefold() for action in menu.menu.actions() if "&" in action.text()]
         letters = [text[text.index("&") + 1] for text in texts]
         assert len(letters) == len(set(letters)), texts
+
+
+def test_nothing_is_suggested_from_the_set_that_was_open_before(editor: Editor, qtbot: QtBot) -> None:
+    say(editor, qtbot, "Fat.")
+    editor.wiring.bigram.open(F_AH)
+    assert editor.wiring.suggesting.accept_action.isEnabled()
+    crab = curve_set_json.load(resources.english_curves().with_name("crab.json"))
+    editor.document.new(crab.with_bigram(F_AH, None))
+    assert editor.wiring.bigram.pair == F_AH
+    assert not editor.wiring.suggesting.accept_action.isEnabled()
+    after_diagnosis(editor, qtbot)
+    editor.wiring.suggesting.accept()
+    assert set(editor.document.curve_set.bigrams[F_AH].curves) <= set(crab.poses)
+    assert editor.document.curve_set.bigrams[F_AH].curves["mouth open"].v.max() > 0.2
+
+
+def test_the_version_at_opening_outlives_a_great_change(editor: Editor, qtbot: QtBot) -> None:
+    compare, opened = editor.wiring.compare, editor.document.curve_set
+    compare.opening.trigger()
+    assert compare.other is opened
+    editor.document.change_set(replace(opened, name="Renamed"), "Rename")
+    qtbot.waitUntil(lambda: editor.session.curve_set.name == "Renamed")
+    assert compare.other is opened
+    editor.document.new(opened)
+    qtbot.waitUntil(lambda: compare.other is None)
