@@ -34,6 +34,7 @@ from .layers import Layers
 from .layouts import Layouts
 from .looks import Looks
 from .mapping import Mapping
+from .notes import Notes
 from .open_bigram import OpenBigram
 from .other_method import OtherMethod
 from .palette import Palette
@@ -83,6 +84,7 @@ class Wiring(QObject):
         self.compare = Compare(parts, self.bigram, self)
         self.other_method = OtherMethod(parts, self.character.company, self)
         self.statistics = Statistics(parts, self.queue, self)
+        self.notes = Notes(parts, self.bigram, self)
         self.layers = Layers(parts, self.bigram, self)
         self.phone_sets = PhoneSets(parts, self)
         self.palette = Palette(parts, self.bigram, self.sentence, self)
