@@ -208,7 +208,7 @@ class CanvasHeader(QWidget):
 
     def _show(self) -> None:
         tip = f"{self.text}\n{self._note}" if self._note else self.text
-        self.setToolTip(Qt.convertFromPlainText(tip) if Qt.mightBeRichText(tip) else tip)
+        self.setToolTip(f"<qt>{escape(tip)}</qt>".replace("\n", "<br>") if "<" in tip else tip)  # never markup
         self._detail.setAccessibleDescription(self.text)
         self._layout.activate()
         room = self._detail.width() - 8
