@@ -213,8 +213,9 @@ class Actions:
             "bigram.play", tr("&Play the Bigram Alone"), "Shift+F5", tr("Play or stop the open bigram")
         )
         menu.line()
+        self.note = menu.add("bigram.note", tr("Not&e…"), (), tr("A few words about the open bigram, kept in the file"))
         self.revert = menu.add(
-            "bigram.revert", tr("Revert t&o Base"), (), tr("The open bigram as the set below has it")
+            "bigram.revert", tr("Revert to B&ase"), (), tr("The open bigram as the set below has it")
         )
         self.theirs = menu.add(
             "bigram.theirs",

@@ -15,6 +15,8 @@ _GAP = "\u2002·\u2002"
 
 #: Pixels from which on every button is shown.
 ROOMY = 560
+#: Letters of a note that stand in the line.
+NOTE = 40
 
 _ACTIONS = (
     ("frame_all", "arrow-expand-all", QT_TRANSLATE_NOOP("CanvasHeader", "Frame all")),
@@ -50,6 +52,7 @@ class CanvasHeader(QWidget):
         self._status = ""
         self._spent = ""
         self._layer = ""
+        self._note = ""
         self._title = QLabel()
         self._title.setFont(theme.font(15, bold=True))
         self._title.setAccessibleName(self.tr("Open bigram"))
@@ -133,6 +136,12 @@ class CanvasHeader(QWidget):
         self._revert.setVisible(own)
         self._show()
 
+    def set_note(self, text: str) -> None:
+        """The animator's words about the bigram; the line has their beginning, the tooltip all of them."""
+        if text != self._note:
+            self._note = text
+            self._show()
+
     @property
     def revert(self) -> QToolButton:
         """The button that goes back to the set below."""
@@ -191,10 +200,15 @@ class CanvasHeader(QWidget):
             parts.append((self._status, escape(self._status)))
         if self._layer:
             parts.append((self._layer, escape(self._layer)))
+        if self._note:
+            line = " ".join(self._note.split())
+            short_note = line if len(line) <= NOTE else f"{line[: NOTE - 1]}…"
+            parts.append((f"“{short_note}”", escape(f"“{short_note}”")))
         return parts
 
     def _show(self) -> None:
-        self.setToolTip(self.text)
+        tip = f"{self.text}\n{self._note}" if self._note else self.text
+        self.setToolTip(f"<qt>{escape(tip)}</qt>".replace("\n", "<br>") if "<" in tip else tip)  # never markup
         self._detail.setAccessibleDescription(self.text)
         self._layout.activate()
         room = self._detail.width() - 8
