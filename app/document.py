@@ -24,6 +24,9 @@ from .commands import ChangeSet, ChangeSettings, EditBigram, EditBigrams
 
 NUDGE = "Nudge keys"
 
+#: Steps that can be undone; a bigram more or less in each, two kilobytes.
+UNDO_STEPS = 5000
+
 
 class Document(QObject):
     """A curve set being edited.
@@ -56,6 +59,7 @@ class Document(QObject):
         self.on_disk: CurveSet | None = None
         self.digest = ""
         self.undo_stack = QUndoStack(self)
+        self.undo_stack.setUndoLimit(UNDO_STEPS)
         self.undo_stack.indexChanged.connect(self._index_changed)
         self._recovered = False
         self._was_dirty = False

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from itertools import islice
 from types import MappingProxyType
 
 from .curve_set import CurveSet
@@ -50,6 +52,7 @@ def _sorted(phones: Sequence[str], order: Sequence[str]) -> tuple[str, ...]:
     return tuple(sorted(phones, key=lambda phone: place.get(TABLE_1.get(phone, phone), len(order))))
 
 
+@lru_cache(4096)
 def distance(one: str, other: str) -> int:
     """0 for the same phone, 1 for one that looks alike, 2 within vowels or within consonants, else 4."""
     if one == other:
@@ -61,5 +64,6 @@ def distance(one: str, other: str) -> int:
 
 def similar_bigrams(curve_set: CurveSet, pair: Pair, most: int = 8) -> list[Pair]:
     """Bigrams of the set that have curves and whose phones are nearest to those of `pair`, the nearest first."""
-    drawn = [p for p, bigram in curve_set.bigrams.items() if p != pair and not bigram.is_empty]
-    return sorted(drawn, key=lambda p: distance(p[0], pair[0]) + distance(p[1], pair[1]))[:most]
+    near = sorted(curve_set.bigrams, key=lambda p: distance(p[0], pair[0]) + distance(p[1], pair[1]))
+    drawn = (p for p in near if p != pair and not curve_set.bigrams[p].is_empty)
+    return list(islice(drawn, most))

@@ -9,7 +9,6 @@ from PySide6.QtWidgets import (
     QAbstractItemView,
     QComboBox,
     QHBoxLayout,
-    QHeaderView,
     QTableWidget,
     QTableWidgetItem,
     QToolButton,
@@ -107,7 +106,8 @@ class MethodBox(QWidget):
         table.setHorizontalHeaderLabels([self.tr("Pose"), self.tr("RMSE"), self.tr("Peak difference")])
         table.setAccessibleName(self.tr("Differences, pose by pose"))
         table.verticalHeader().hide()
-        table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        table.setColumnWidth(0, 80)
+        table.setColumnWidth(1, 80)
         table.horizontalHeader().setStretchLastSection(True)
         table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         table.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
