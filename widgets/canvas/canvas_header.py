@@ -14,7 +14,7 @@ from .. import theme
 _GAP = "\u2002·\u2002"
 
 #: Pixels from which on every button is shown.
-ROOMY = 560
+ROOMY = 480
 #: Letters of a note that stand in the line.
 NOTE = 40
 
@@ -33,7 +33,7 @@ _SPARE = ("reverse", "mirror", "copy", "paste", "duplicate", "slide")
 class CanvasHeader(QWidget):
     """“F – Ah  as in “fat” · used 2× in this sentence · draft”, two switches, and buttons for what keys do too.
 
-    Where there is no room some buttons go first, then words, the example, the use; the tooltip always has the
+    Where there is no room some buttons go first, then words, the use, the status, the example; the tooltip always has the
     whole line.
     """
 
@@ -219,7 +219,7 @@ class CanvasHeader(QWidget):
         if self._spent and self._length([*parts, spent]) <= room:
             parts.append(spent)
         while parts and self._length(parts) > room:
-            parts.pop(0)
+            parts.pop(1 if self._word and len(parts) > 1 else 0)
         self._detail.setText(_GAP.join(rich for _, rich in parts))
 
     def _length(self, parts: Sequence[tuple[str, str]]) -> int:
