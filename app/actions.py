@@ -197,10 +197,12 @@ class Actions:
         )
 
     def _one_of(self, menu: Menu, kind: str, titles: Mapping[str, str], *, numbered: bool = False) -> QActionGroup:
-        """A choice of exactly one, the first at the start; `numbered`: Ctrl+1 and so on choose."""
+        """A choice of exactly one, the first at the start; `numbered`: Ctrl+2 and so on choose the others."""
         group = menu.choice()
         for number, (name, title) in enumerate(titles.items(), 1):
-            action = menu.add(f"{kind}.{name}", title, f"Ctrl+{number}" if numbered else (), checked=number == 1)
+            action = menu.add(
+                f"{kind}.{name}", title, f"Ctrl+{number}" if numbered and number > 1 else (), checked=number == 1
+            )
             action.setData(name)
             group.addAction(action)
         return group
