@@ -72,7 +72,7 @@ class Actions:
             "file.save-as", tr("Save &As…"), "Ctrl+Shift+S", tr("Save the curve set in another file")
         )
         self.restore = menu.add(
-            "file.restore", tr("Res&tore a Backup…"), (), tr("Go back to what was saved before, as one undo step")
+            "file.restore", tr("Restore a &Backup…"), (), tr("Go back to what was saved before, as one undo step")
         )
         menu.line()
         self.import_script = menu.add(
@@ -193,7 +193,7 @@ class Actions:
         self.angles = self._one_of(menu.submenu(tr("Ca&mera")), "camera", angles, numbered=True)
         self.angles.setExclusionPolicy(QActionGroup.ExclusionPolicy.ExclusiveOptional)  # none, once turned by hand
         self.turntable = menu.add(
-            "view.turntable", tr("&Turntable"), "Ctrl+Shift+T", tr("Let the faces turn by themselves"), checked=False
+            "view.turntable", tr("&Turntable"), "Ctrl+Alt+T", tr("Let the faces turn by themselves"), checked=False
         )
 
     def _one_of(self, menu: Menu, kind: str, titles: Mapping[str, str], *, numbered: bool = False) -> QActionGroup:
@@ -214,7 +214,7 @@ class Actions:
         )
         menu.line()
         self.revert = menu.add(
-            "bigram.revert", tr("Re&vert to Base"), (), tr("The open bigram as the set below has it")
+            "bigram.revert", tr("Revert t&o Base"), (), tr("The open bigram as the set below has it")
         )
         self.theirs = menu.add(
             "bigram.theirs",
@@ -232,6 +232,8 @@ class Actions:
             "bigram.previous", tr("P&revious in the Sentence"), "Alt+Left", tr("The sentence's previous bigram")
         )
 
+        self.work_menu = menu.submenu(tr("W&ork Through All"))
+
         menu.line()
         self.new_tab = menu.add(
             "bigram.new-tab",
@@ -242,7 +244,7 @@ class Actions:
         self.close_tab = menu.add("bigram.close-tab", tr("&Close the Tab"), "Ctrl+W", tr("Close this bigram's tab"))
         self.next_tab = menu.add("bigram.next-tab", tr("Ne&xt Tab"), "Ctrl+Tab", tr("The bigram of the next tab"))
         self.previous_tab = menu.add(
-            "bigram.previous-tab", tr("Prev&ious Tab"), "Ctrl+Shift+Tab", tr("The bigram of the previous tab")
+            "bigram.previous-tab", tr("Previo&us Tab"), "Ctrl+Shift+Tab", tr("The bigram of the previous tab")
         )
         self.beside = menu.add(
             "bigram.beside",

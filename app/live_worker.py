@@ -19,6 +19,8 @@ from core_pipeline.speech.live import CHUNK, Live, Moment
 from core_pipeline.speech.sphinx import RATE, Cancelled, Sphinx
 from core_pipeline.speech.utterance import Audio, Utterance
 
+#: Samples of the longest chunk: what has waited on a busy machine is taken at once.
+MOST = 16 * CHUNK
 #: A chunk, and how many seconds ago its last sample was spoken.
 _Chunk = tuple[NDArray[np.float32], float]
 
@@ -122,12 +124,15 @@ class LiveWorker(QObject):
 
 def _replayed(audio: Audio, halt: threading.Event) -> Iterator[_Chunk]:
     sound = resampled(audio, RATE).samples
-    begin = time.monotonic()
-    for i in range(0, sound.size - CHUNK + 1, CHUNK):
+    begin, i = time.monotonic(), 0
+    while i + CHUNK <= sound.size:
         due = begin + (i + CHUNK) / RATE
         if halt.wait(max(0.0, due - time.monotonic())):
             return
-        yield sound[i : i + CHUNK], max(0.0, time.monotonic() - due)
+        waiting = int((time.monotonic() - due) * RATE)
+        size = min(CHUNK + max(0, waiting), MOST, sound.size - i)
+        i += size
+        yield sound[i - size : i], max(0.0, time.monotonic() - (begin + i / RATE))
 
 
 def _microphone(device: int | None, halt: threading.Event) -> Iterator[_Chunk]:
@@ -136,12 +141,13 @@ def _microphone(device: int | None, halt: threading.Event) -> Iterator[_Chunk]:
     try:
         rate = round(sounddevice.query_devices(device, "input")["default_samplerate"])
         size = round(CHUNK * rate / RATE)
-        at = np.arange(CHUNK) * rate / RATE
         with sounddevice.InputStream(rate, size, device, 1, "float32", latency="low") as stream:
             while not halt.is_set():
-                data, _ = stream.read(size)
+                times = min(1 + stream.read_available // size, MOST // CHUNK)
+                data, _ = stream.read(times * size)
                 waiting = stream.read_available / rate
-                sound = data[:, 0] if rate == RATE else np.interp(at, np.arange(size), data[:, 0])
+                at = np.arange(times * CHUNK) * rate / RATE
+                sound = data[:, 0] if rate == RATE else np.interp(at, np.arange(times * size), data[:, 0])
                 yield sound.astype(np.float32), waiting
     except (sounddevice.PortAudioError, ValueError) as error:
         raise UserError(f"The microphone cannot be heard ({error}): choose another one.") from None

@@ -124,7 +124,8 @@ def _report(learned: Learned, corpus: Corpus, about: dict[str, float], seconds: 
     from core_pipeline.phonemes import SILENCE, pair_name
 
     aside = f", {about['held_out_error']:.4f} on {about['held_out_clips']} kept aside" if len(about) > 4 else ""
-    size = f"{len(corpus)} clips, {corpus.seconds:.1f} s, {about['phones']} phones, {len(corpus.poses)} poses"
+    clips = "1 clip" if len(corpus) == 1 else f"{len(corpus)} clips"
+    size = f"{clips}, {corpus.seconds:.1f} s, {about['phones']} phones, {len(corpus.poses)} poses"
     lines = [
         f"{title[0].upper()}{title[1:]} from {size}, in {seconds:.2f} s.",
         f"RMSE {about['error']:.4f} on these clips{aside}.",

@@ -71,8 +71,7 @@ def read(file: Path) -> Kept:
     if head.get("schema") != SCHEMA or not isinstance(head.get("set"), str):
         raise UserError(f"{file} is no journal of Lipstitch: choose another file.")
     path = Path(head["path"]) if isinstance(head.get("path"), str) else None
-    folder = path.parent if path is not None else None
-    curve_set = curve_set_json.parse(head["set"].encode(), str(file), folder).curve_set
+    curve_set = _first(head["set"].encode(), file, path.parent if path is not None else None)
     for line in lines:
         text, gone = line.get("set"), line.get("gone")
         if not (isinstance(text, str) and isinstance(gone, list)):
@@ -85,6 +84,17 @@ def read(file: Path) -> Kept:
             curve_set = curve_set.with_bigram((first, second), None)
         curve_set = replace(curve_set, settings=None if "settings" in line else changed.settings)
     return Kept(curve_set, path, str(head.get("digest", "")))
+
+
+def _first(data: bytes, file: Path, folder: Path | None) -> CurveSet:
+    """The whole set of the first line; where its base has gone meanwhile, what was its own, standing alone."""
+    try:
+        return curve_set_json.parse(data, str(file), folder).curve_set
+    except UserError:
+        top = json.loads(data)
+        if not (isinstance(top, dict) and top.pop("base", None)):
+            raise
+        return curve_set_json.parse(json.dumps(top).encode(), str(file)).curve_set
 
 
 def _lines(data: bytes) -> Iterator[dict[str, Any]]:

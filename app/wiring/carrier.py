@@ -63,9 +63,9 @@ class Carrier(QObject):
         self._saying: tuple[Pair, str, tuple[str, ...]] | None = None  # pair, text, words to try when it lacks the pair
         self._worker = Latest("carrier words", _find, self)
         self._worker.answered.connect(self._found)
-        self.action = self._window.actions_.bigram_menu.add(
+        self.action = self._window.actions_.work_menu.add(
             "bigram.carrier",
-            self.tr("&Loop a Word That Has It"),
+            self.tr("L&oop a Word That Has It"),
             (),
             self.tr("When a bigram is opened that the sentence does not have, say a short word and pinned sentences"),
             checked=self._state.flag("carrier words", True),

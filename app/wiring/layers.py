@@ -20,6 +20,7 @@ class Layers(QObject):
         self._document = parts.document
         self._window = parts.window
         self._bigram = bigram
+        self._dotted: frozenset[Pair] = frozenset()
         self._window.actions_.revert.triggered.connect(self.revert)
         self._window.header.revert_wanted.connect(self.revert)
         self._window.actions_.theirs.triggered.connect(self.swap_sides)
@@ -48,8 +49,10 @@ class Layers(QObject):
 
     def _show(self) -> None:
         curve_set, pair = self._document.curve_set, self._bigram.pair
-        own: frozenset[Pair] = frozenset() if curve_set.below is None else frozenset(curve_set.own)
-        self._window.picker.set_overridden(own)
+        own = frozenset[Pair]() if curve_set.below is None else frozenset(curve_set.own)
+        if own != self._dotted:
+            self._dotted = own
+            self._window.picker.set_overridden(own)
         mine = pair in own
         self._window.actions_.revert.setEnabled(mine)
         layer = "" if curve_set.below is None or pair is None else curve_set.layer_of(pair)

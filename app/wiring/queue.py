@@ -40,11 +40,11 @@ class Queue(QObject):
         self.shares: Mapping[Pair, float] = self.frequencies.shares
         self._order: list[Pair] = []
         self._ordered_for: tuple[object, object] = (None, None)
-        menu = self._window.actions_.bigram_menu
+        menu = self._window.actions_.work_menu
         menu.line()
         self.approve_action = menu.add(
             "bigram.approve",
-            self.tr("A&pprove and Open the Next"),
+            self.tr("Approv&e and Open the Next"),
             ("Ctrl+Return", "Ctrl+Enter"),
             self.tr("Mark the open bigram as approved and go on with the next in the queue"),
         )

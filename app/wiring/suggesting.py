@@ -27,7 +27,7 @@ class Suggesting(QObject):
         self._window, self._document = parts.window, parts.document
         self._bigram, self._weak = bigram, weak
         self._offered: Bigram | None = None  # for the open bigram, and only while it is empty
-        menu = self._window.actions_.bigram_menu
+        menu = self._window.actions_.work_menu
         menu.line()
         self.accept_action = menu.add(
             "bigram.accept", self.tr("&Accept the Suggestion"), "Tab", self.tr("Take what is shown in grey as a draft")

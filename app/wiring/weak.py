@@ -56,8 +56,7 @@ class Weak(QObject):
         return timer
 
     def _connect(self) -> None:
-        panel, menu = self._window.weak_panel, self._window.actions_.bigram_menu
-        menu.line()
+        panel, menu = self._window.weak_panel, self._window.actions_.work_menu
         for name, text, key, way in (
             ("weak.next", self.tr("Next &Weak One"), ".", 1),
             ("weak.previous", self.tr("Previous Wea&k One"), ",", -1),
@@ -65,7 +64,7 @@ class Weak(QObject):
             action = menu.add(name, text, key, self.tr("Step through the list of weak bigrams"))
             action.triggered.connect(lambda _=False, way=way: panel.list.step(way))
         look = menu.add(
-            "weak.text", self.tr("Look for Weak Ones in a &Text…"), (), self.tr("Find what is weak in a whole script")
+            "weak.text", self.tr("Look for Weak Ones &in a Text…"), (), self.tr("Find what is weak in a whole script")
         )
         look.triggered.connect(lambda _=False: self._ask_file())
         self._session.stages_changed.connect(self._stages_changed)

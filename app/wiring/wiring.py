@@ -32,6 +32,7 @@ from .face_picker import FacePicking
 from .keys import KeysOfWindow
 from .layers import Layers
 from .layouts import Layouts
+from .learning import Learning
 from .looks import Looks
 from .mapping import Mapping
 from .open_bigram import OpenBigram
@@ -44,6 +45,7 @@ from .sentence import RATE, Sentence
 from .sentences import Sentences
 from .speech_in import SpeechIn
 from .statistics import Statistics
+from .studying import Studying
 from .suggesting import Suggesting
 from .tabs import Tabs
 from .time_spent import TimeSpent
@@ -82,6 +84,8 @@ class Wiring(QObject):
         self.time_spent = TimeSpent(parts, self.bigram, self)
         self.compare = Compare(parts, self.bigram, self)
         self.other_method = OtherMethod(parts, self.character.company, self)
+        self.learning = Learning(parts, self)
+        self.studying = Studying(parts, self)
         self.statistics = Statistics(parts, self.queue, self)
         self.layers = Layers(parts, self.bigram, self)
         self.phone_sets = PhoneSets(parts, self)
@@ -351,3 +355,5 @@ class Wiring(QObject):
         self.carrier.close()
         self.time_spent.close()
         self.other_method.close()
+        self.learning.close()
+        self.studying.close()

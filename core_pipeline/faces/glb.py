@@ -206,7 +206,8 @@ def _same_counts(gltf: GltfFile, title: str, count: int, attributes: Json, targe
 
 
 def _move(place: Matrix, vectors: Floats, w: int) -> Floats:
-    turned = np.einsum("...ij,...j->...i", place[..., :3, :3], vectors)
+    turn = place[..., :3, :3]
+    turned = vectors @ turn.T if place.ndim == 2 else np.einsum("nij,nj->ni", turn, vectors)
     moved: Floats = (turned + w * place[..., :3, 3] if w else turned).astype(np.float32)
     return moved
 

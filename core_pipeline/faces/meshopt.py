@@ -82,6 +82,8 @@ def _groups(raw: Bytes, end: int, count: int, stride: int, block: int) -> tuple[
         for column in range(stride):
             head = int.from_bytes(data[at : at + header], "little")
             at += header
+            if not head and at <= end:  # most of a blendshape moves nothing
+                continue
             for group in range(groups):
                 kind = head >> 2 * group & 3
                 if not kind:

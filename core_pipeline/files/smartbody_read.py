@@ -37,14 +37,15 @@ def import_set(script: Script, name: str | None = None) -> Import:
     """
     chosen = script.largest() if name is None else name
     if chosen not in script.sets:
-        raise UserError(f"{script.place} has no set “{shown(chosen)}”: choose among {', '.join(script.sets)}.")
+        raise UserError(
+            f"{script.place} has no set “{shown(chosen)}”: choose among {', '.join(map(shown, script.sets))}."
+        )
     source = script.sets[chosen]
     report = _Report(script.place)
     report.notes += script.notes
     if len(script.sets) > 1 and name is None:
-        others = ", ".join(
-            f"{s.name} ({many(len(s.pairs), 'diphone')})" for s in script.sets.values() if s.name != chosen
-        )
+        rest = [s for s in script.sets.values() if s.name != chosen]
+        others = ", ".join(f"{shown(s.name)} ({many(len(s.pairs), 'diphone')})" for s in rest[:10])
         report.notes.append(f"{script.place}: “{shown(chosen)}” was taken; there are other sets too: {others}.")
     pairs = _named_as_ours(source, report)
     bigrams = {pair: _bigram(pair, keys, report, script.place) for pair, keys in pairs.items()}

@@ -11,7 +11,7 @@ in other pairs (ours). Pairs that were never seen are only offered, as suggest.p
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -21,6 +21,7 @@ from ..curve_set import Bigram, CurveSet
 from ..curves import Curve
 from ..errors import UserError
 from ..methods.method import Progress, no_progress
+from ..one_thread import one_thread
 from ..phonemes import SILENCE, Pair
 from ..simplify import simplified
 from ..suggest import Suggestions
@@ -72,6 +73,7 @@ class Learned:
 
     found    pairs that were spoken, most often first
     heard    every occurrence
+    blind    poses that the corpus could not show
     """
 
     poses: tuple[str, ...]
@@ -79,6 +81,7 @@ class Learned:
     phoneme_map: Mapping[str, str]
     found: Mapping[Pair, LearnedBigram]
     heard: Occurrences
+    blind: tuple[str, ...] = ()
 
     def curve_set(self, name: str = "Learned", like: CurveSet | None = None) -> CurveSet:
         """A set of the found bigrams alone; poses, settings and language of `like`, whose poses must include ours."""
@@ -95,10 +98,19 @@ class Learned:
     @cached_property
     def offered(self) -> Mapping[Pair, Bigram]:
         """Pairs that were never spoken, those of silence too, each with a suggestion from those that were."""
-        suggestions = Suggestions.of(self.curve_set()).prepared()
         phones = (*self.phonemes, SILENCE)
-        pairs = ((a, b) for a in phones for b in phones if (a, b) != (SILENCE, SILENCE))
-        return {pair: suggestions.bigram(pair) for pair in pairs if pair not in self.found}
+        pairs = [(a, b) for a in phones for b in phones if (a, b) not in self.found and (a, b) != (SILENCE, SILENCE)]
+        with one_thread():
+            suggestions = Suggestions.of(self.curve_set()).prepared()
+            return {pair: suggestions.bigram(pair) for pair in pairs}
+
+    def beside(self, pair: Pair, old: Bigram | None) -> Bigram:
+        """A learned bigram in the place of another, of which the note and poses nobody could see are kept."""
+        found = self.found[pair].bigram
+        if old is None:
+            return found
+        kept = {pose: curve for pose, curve in old.curves.items() if pose in self.blind}
+        return replace(found, curves={**found.curves, **kept}, note=old.note, extra={**old.extra, **found.extra})
 
     def spoken(self, pair: Pair, pose: str) -> list[tuple[Array, Array]]:
         """(normalised times, weights) of the pose in every occurrence of a pair, where the face was seen."""
@@ -115,7 +127,11 @@ class Learned:
 
 def learn_bigrams(corpus: Corpus, options: LearnOptions | None = None, progress: Progress = no_progress) -> Learned:
     """Learn. UserError when no pair of the corpus's phonemes was seen; whatever `progress` raises ends it."""
-    options = options or LearnOptions()
+    with one_thread():
+        return _learn(corpus, options or LearnOptions(), progress)
+
+
+def _learn(corpus: Corpus, options: LearnOptions, progress: Progress) -> Learned:
     heard = occurrences_of(corpus)
     phones = {*corpus.phonemes, SILENCE}
     silent = (SILENCE, SILENCE)
@@ -179,7 +195,7 @@ def _learned(corpus: Corpus, heard: Occurrences, curves: Array, errors: Array, t
         about = {"learned": {"occurrences": count, "residual": round(residual, 4)}}
         made = _curves(curves[row], corpus.poses, tolerance)
         found[pair] = LearnedBigram(Bigram(made, "draft", LEARNED, extra=about), count, residual)
-    return Learned(corpus.poses, corpus.phonemes, corpus.phoneme_map, found, heard)
+    return Learned(corpus.poses, corpus.phonemes, corpus.phoneme_map, found, heard, corpus.blind)
 
 
 def _curves(nodes: Array, poses: tuple[str, ...], tolerance: float) -> dict[str, Curve]:

@@ -29,6 +29,7 @@ class Clip:
 
     known     (f,) frames that were really seen; False where the face was lost
     residual  what the poses leave unexplained of the captured motion, as a share of it (0…1); 0 when it was weights
+    blind     poses that the recording cannot show, such as the tongue's
     notes     one sentence each on what had to be repaired
     """
 
@@ -37,6 +38,7 @@ class Clip:
     weights: Weights
     known: Mask
     residual: float = 0.0
+    blind: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
 
     @classmethod
@@ -113,6 +115,11 @@ class Corpus:
         for clip in self.clips:
             found.update(dict.fromkeys(clip.schedule.phones))
         return tuple(found)
+
+    @property
+    def blind(self) -> tuple[str, ...]:
+        """Poses that no clip can show."""
+        return tuple(pose for pose in self.poses if all(pose in clip.blind for clip in self.clips))
 
     def counts(self) -> dict[str, int]:
         """Phone → how often it occurs."""

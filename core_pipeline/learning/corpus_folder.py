@@ -66,11 +66,10 @@ class Reader:
                 notes.append(f"{animation.name} is left out: {error}")
                 continue
             clips.append(clip)
-            notes += [f"{animation.name}: {note}" for note in clip.notes]
         if not clips:
             why = f" {notes[0]}" if notes else ""
             raise UserError(f"Nothing in {folder} can be learned from.{why}")
-        return Corpus.of(clips, self.curve_set.phonemes, self.curve_set.phoneme_map, notes)
+        return Corpus.of(clips, self.curve_set.phonemes, self.curve_set.phoneme_map, [*notes, *told_once(clips)])
 
     def _clip(self, animation: Path, files: Sequence[Path]) -> Clip:
         schedule, notes = self._schedule(animation, files)
@@ -101,6 +100,15 @@ class Reader:
         if self.align is None:
             raise UserError(f"{sound.name} cannot be aligned here; put {animation.stem}.TextGrid beside it.")
         return self.align(sound, text.read_text("utf-8-sig", "replace")), ()
+
+
+def told_once(clips: Sequence[Clip]) -> list[str]:
+    """The notes of all clips; what is true of many is said once."""
+    names: dict[str, list[str]] = {}
+    for clip in clips:
+        for note in clip.notes:
+            names.setdefault(note, []).append(clip.name)
+    return [f"{who[0]}{f' and {len(who) - 1} more' if len(who) > 1 else ''}: {note}" for note, who in names.items()]
 
 
 def _animations(folder: Path) -> tuple[list[Path], list[Path]]:
@@ -159,9 +167,11 @@ def with_poses(clip: Clip, poses: Sequence[str]) -> Clip:
     for p, pose in enumerate(poses):
         if pose in own:
             frames[:, p] = clip.weights.frames[:, own.index(pose)]
-    notes = [f"{pose} is not in it and stays at 0." for pose in poses if pose not in own]
+    blind = tuple(pose for pose in poses if pose not in own)
+    notes = [f"{pose} is not in it and stays at 0." for pose in blind]
     notes += [f"{pose} is no pose of the set and is left out." for pose in own if pose not in poses]
-    return replace(clip, weights=replace(clip.weights, poses=tuple(poses), frames=frames), notes=(*clip.notes, *notes))
+    shown = replace(clip.weights, poses=tuple(poses), frames=frames)
+    return replace(clip, weights=shown, blind=blind, notes=(*clip.notes, *notes))
 
 
 def trimmed(clip: Clip) -> Clip:

@@ -48,10 +48,12 @@ def clip_of(
     weights = pose_weights(basis, offsets, upper=1.0)
     residual = unexplained(basis, offsets[capture.seen], weights[capture.seen])
     notes = [*capture.notes, *found.notes]
+    if found.missing:  # said of a face; here it is a recording
+        notes[-1] = f"{', '.join(found.missing)} cannot be seen in it and stay at rest."
     if residual > 0.5:
         notes.append(f"The poses explain only {1 - residual:.0%} of the captured motion.")
     made = Weights(tuple(poses), capture.fps, capture.start, weights.astype(np.float32))
-    return Clip(name, schedule, made, capture.seen, residual, tuple(notes))
+    return Clip(name, schedule, made, capture.seen, residual, found.missing, tuple(notes))
 
 
 def _are_poses(poses: Mapping[str, retarget.Mix]) -> bool:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ..errors import UserError
 from ..learning.corpus import Corpus
+from ..one_thread import one_thread
 from .cluster import affinity_propagation, k_means, merged
 from .dam import Dam
 from .dominance import Reach, joined, reach_of
@@ -58,13 +59,8 @@ COHEN_MASSARO = DamOptions(degree=0, modes=1)
 
 
 def fit(corpus: Corpus, options: DamOptions | None = None, progress: Progress = no_progress) -> Dam:
-    """Learn a model. UserError when no phone of the corpus was seen; whatever `progress` raises ends the fit.
-
-    One thread of linear algebra: on matrices this small those of OpenBLAS cost ten times what they save.
-    """
-    from threadpoolctl import threadpool_limits
-
-    with threadpool_limits(limits=1, user_api="blas"):
+    """Learn a model. UserError when no phone of the corpus was seen; whatever `progress` raises ends the fit."""
+    with one_thread():
         return _fit(corpus, options or DamOptions(), progress)
 
 

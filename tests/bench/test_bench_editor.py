@@ -2,10 +2,12 @@
 
 from itertools import count
 
-from PySide6.QtCore import QEventLoop, QPointF, Qt
+import pytest
+from PySide6.QtCore import QEventLoop, QPointF, Qt, QTimer
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
+from app import resources
 from tests.helpers import mouse
 from tests.helpers.budget import within
 
@@ -69,3 +71,28 @@ def test_another_bigram_in_the_canvas(benchmark, editor, qtbot):
 
     benchmark(switch)
     within(benchmark, 0.05)
+
+
+@pytest.mark.parametrize("beside", [(), ("man", "woman")], ids=["one face", "three faces"])
+def test_a_second_of_playing(benchmark, editor, qtbot, beside):
+    """How many pictures are shown in a second of speech; sound never waits for them."""
+    for name in beside:
+        editor.wiring.character.company.add(resources.face_folder(name))
+    qtbot.waitUntil(lambda: len(editor.preview.actors) == 1 + len(beside), timeout=20_000)
+    _type(editor, qtbot, SENTENCE)
+    editor.preview.player.set_looping(True)
+    shown = []
+    editor.preview.frame_ready.connect(shown.append)
+
+    def second():
+        shown.clear()
+        loop = QEventLoop()
+        QTimer.singleShot(1000, loop, loop.quit)
+        loop.exec()
+        return len(shown)
+
+    pictures = benchmark.pedantic(second, rounds=3, warmup_rounds=1)
+    benchmark.extra_info["pictures per second"] = pictures
+    editor.preview.player.pause()
+    if benchmark.enabled:
+        assert pictures >= 30

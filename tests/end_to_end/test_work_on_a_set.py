@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QMenu
 from pytestqt.qtbot import QtBot
 
 from app import resources
@@ -175,7 +175,7 @@ def test_nothing_drawn_is_not_approved(editor: Editor) -> None:
 
 def test_a_pinned_sentence_that_has_the_bigram_is_said_after_the_word(editor: Editor, qtbot: QtBot) -> None:
     say(editor, qtbot, "Oh.")
-    editor.wiring.sentence.pinned.add(["Fifty ships.", "The fat cat."])
+    editor.wiring.sentence.pinned.set(["Fifty ships.", "The fat cat."])
     with qtbot.waitSignal(
         editor.session.stages_changed, timeout=30_000, check_params_cb=lambda s: F_AH in s.schedule.pairs()
     ):
@@ -305,3 +305,12 @@ def test_time_is_counted_while_there_is_work(editor: Editor) -> None:
         spent.tick()
     assert spent.seconds[F_AH] < counted + 40  # nothing was done
     assert editor.window.header._spent == f"{spent.seconds[F_AH] // 60}:{spent.seconds[F_AH] % 60:02}"
+
+
+def test_no_two_commands_of_the_whole_window_share_a_key_or_a_mnemonic(editor: Editor) -> None:
+    keys = [key for entry in editor.window.actions_.registry for key in entry.default]
+    assert {key for key in keys if keys.count(key) > 1} == set()
+    for menu in editor.window.findChildren(QMenu):
+        texts = [action.text().casefold() for action in menu.actions() if "&" in action.text()]
+        letters = [text[text.index("&") + 1] for text in texts]
+        assert len(letters) == len(set(letters)), texts

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
-from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QToolButton, QWidget
+from PySide6.QtCore import QSize, Signal
+from PySide6.QtWidgets import QHBoxLayout, QToolButton, QWidget
 
 from .. import theme
+from ..number_box import NumberBox
 
 
 class BigramTransport(QWidget):
@@ -19,13 +20,7 @@ class BigramTransport(QWidget):
         self.button = QToolButton()
         self.button.setIconSize(QSize(18, 18))
         self.button.clicked.connect(self.play_toggled)
-        self.length = QDoubleSpinBox()
-        self.length.setRange(0.1, 4.0)
-        self.length.setSingleStep(0.05)
-        self.length.setDecimals(2)
-        self.length.setSuffix(self.tr(" s"))
-        self.length.setKeyboardTracking(False)
-        self.length.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
+        self.length = NumberBox(0.1, 4.0, 0.05, suffix=self.tr(" s"))
         self.length.setToolTip(self.tr("How long the bigram takes when it is played alone"))
         self.length.setAccessibleName(self.tr("Length of the bigram in seconds"))
         self.length.valueChanged.connect(self.length_changed)
@@ -50,5 +45,4 @@ class BigramTransport(QWidget):
 
     def set_length(self, seconds: float) -> None:
         """How long it takes; emits nothing."""
-        with QSignalBlocker(self.length):
-            self.length.setValue(seconds)
+        self.length.show_value(seconds)

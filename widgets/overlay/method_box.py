@@ -9,7 +9,6 @@ from PySide6.QtWidgets import (
     QAbstractItemView,
     QComboBox,
     QHBoxLayout,
-    QHeaderView,
     QTableWidget,
     QTableWidgetItem,
     QToolButton,
@@ -109,7 +108,8 @@ class MethodBox(QWidget):
         table.setAccessibleName(self.tr("Differences, pose by pose"))
         table.setAccessibleDescription(self.tr("How far the two methods are apart"))
         table.verticalHeader().hide()
-        table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        table.setColumnWidth(0, 80)
+        table.setColumnWidth(1, 80)
         table.horizontalHeader().setStretchLastSection(True)
         table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         table.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)

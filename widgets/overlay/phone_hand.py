@@ -24,6 +24,18 @@ GRIP = 4
 FIELD = 54
 
 
+class PhoneField(QLineEdit):
+    """Where a phone's name is typed: Enter keeps it, Escape does not."""
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Qt's hook."""
+        if event.key() == Qt.Key.Key_Escape:
+            self.setText("")
+            self.hide()
+        else:
+            super().keyPressEvent(event)
+
+
 class PhoneHand(StageOverlay):
     """The overlay with hands for its phones.
 
@@ -47,12 +59,12 @@ class PhoneHand(StageOverlay):
         self._edge: int | None = None
         self._choices = QStringListModel(self)
         self._known: frozenset[str] = frozenset()
-        self.field = QLineEdit(self)
+        self.field = PhoneField(self)
         self.field.hide()
         self.field.setAccessibleName(self.tr("Name of the phone"))
         self.field.setAccessibleDescription(self.tr("Enter renames the phone"))
         completer = QCompleter(self._choices, self.field)
-        completer.setCompletionMode(QCompleter.CompletionMode.PopupCompletion)
+        completer.setCompletionMode(QCompleter.CompletionMode.InlineCompletion)
         self.field.setCompleter(completer)
         self.field.editingFinished.connect(self._typed)
         self._asked: tuple[str, int] = ("", 0)
@@ -128,10 +140,17 @@ class PhoneHand(StageOverlay):
 
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
         """Qt's hook: what can be done to a phone."""
-        phone = self._phone_under(event.pos())
-        if phone is None or self._stages is None:
+        menu = self.menu_at(event.pos())
+        if menu is None:
             super().contextMenuEvent(event)
-            return
+        else:
+            menu.popup(event.globalPos())
+
+    def menu_at(self, at: QPoint) -> QMenu | None:
+        """The context menu of the phone at a place; None where there is none."""
+        phone = self._phone_under(at)
+        if phone is None or self._stages is None:
+            return None
         menu = QMenu(self)
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         menu.addAction(self.tr("Rename…"), lambda: self._ask("rename", phone))
@@ -139,7 +158,7 @@ class PhoneHand(StageOverlay):
         menu.addAction(self.tr("Insert a Phone After…"), lambda: self._ask("after", phone))
         remove = menu.addAction(self.tr("Remove"), lambda: self.phone_removed.emit(phone))
         remove.setEnabled(len(self._stages.schedule) > 1)
-        menu.popup(event.globalPos())
+        return menu
 
     def _phone_under(self, at: QPoint) -> int | None:
         editable = self._stages is not None and bool(self._known) and self._zone(at) in ("phone", "start")

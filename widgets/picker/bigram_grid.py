@@ -104,7 +104,7 @@ class BigramGrid(QTableView):
     def minimumSizeHint(self) -> QSize:
         """The whole width of the smallest cells, some rows."""
         small = self._whole(MIN_CELL, MIN_TALL)
-        return QSize(small.width(), min(small.height(), self._head(MIN_CELL) + 10 * MIN_TALL))
+        return QSize(small.width(), min(small.height(), self._head(MIN_CELL, MIN_TALL) + 10 * MIN_TALL))
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Choose the largest cells that fit."""
@@ -232,13 +232,13 @@ class BigramGrid(QTableView):
         self._hovered = QModelIndex()
         phonemes = self.pairs.phonemes
         cell = self._largest(self.width(), self.height())
-        self._across.setDefaultSectionSize(cell.width())
-        self._down.setDefaultSectionSize(cell.height())
-        self._across.setFixedHeight(self._head(cell.width()))
+        self._across.set_cell(min(cell.width(), cell.height()), cell.width())
+        self._down.set_cell(cell.height(), cell.height())
+        self._across.setFixedHeight(self._head(cell.width(), cell.height()))
         # What is left beside whole cells goes to the names, unless the cells are at their widest.
         count, names = max(len(phonemes), 1), self._names(cell.height())
         left = self.width() - names - count * cell.width()
-        scrolled = self._head(cell.width()) + count * cell.height() > self.height()
+        scrolled = self._head(cell.width(), cell.height()) + count * cell.height() > self.height()
         self._down.setFixedWidth(names + left if 0 <= left < count and not scrolled else names)
         self.updateGeometries()
         # No taller than the cells need, so that what stands below follows at once.
@@ -254,23 +254,23 @@ class BigramGrid(QTableView):
         """Width of the row names beside cells this tall."""
         return widest(self.pairs.phonemes, tall) + 10
 
-    def _head(self, wide: int) -> int:
-        """Height of the column names above cells this wide."""
-        if fits_level(self.pairs.phonemes, wide):
-            return QFontMetrics(header_font(wide)).height() + 6
-        return widest(self.pairs.phonemes, wide) + 8
+    def _head(self, wide: int, tall: int) -> int:
+        """Height of the column names above such cells."""
+        cell = min(wide, tall)
+        if fits_level(self.pairs.phonemes, cell, wide):
+            return QFontMetrics(header_font(cell)).height() + 6
+        return widest(self.pairs.phonemes, cell) + 8
 
     def _whole(self, wide: int, tall: int) -> QSize:
         count = len(self.pairs.phonemes)
-        return QSize(self._names(tall) + count * wide, self._head(wide) + count * tall)
+        return QSize(self._names(tall) + count * wide, self._head(wide, tall) + count * tall)
 
     def _largest(self, width: int, height: int) -> QSize:
         count = max(len(self.pairs.phonemes), 1)
-        for narrower in range(3):  # wider cells may have taller names above them, which then have no room
-            for tall in range(MAX_CELL, MIN_TALL - 1, -1):
-                wide = min((width - self._names(tall)) // count, _WIDER * tall) - narrower
-                if wide >= max(tall, MIN_CELL + 1) and self._head(wide) + count * tall <= height:
-                    return QSize(wide, tall)
+        for tall in range(MAX_CELL, MIN_TALL - 1, -1):
+            wide = min((width - self._names(tall)) // count, _WIDER * tall)
+            if wide >= max(tall, MIN_CELL + 1) and self._head(wide, tall) + count * tall <= height:
+                return QSize(wide, tall)
         room = width - self._names(MIN_TALL) - self.verticalScrollBar().sizeHint().width()
         wide = min(room // count, _WIDER * MIN_TALL)
         return QSize(max(wide, MIN_CELL), MIN_TALL)

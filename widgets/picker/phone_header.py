@@ -24,9 +24,9 @@ def widest(phonemes: Sequence[str], cell: int) -> int:
     return max((metrics.horizontalAdvance(phone) for phone in phonemes), default=0)
 
 
-def fits_level(phonemes: Sequence[str], cell: int) -> bool:
-    """Whether column names need not stand upright."""
-    return widest(phonemes, cell) <= cell - 2
+def fits_level(phonemes: Sequence[str], cell: int, wide: int) -> bool:
+    """Whether column names in the font for `cell` need not stand upright above columns `wide` pixels wide."""
+    return widest(phonemes, cell) <= wide - 2
 
 
 class PhoneHeader(QHeaderView):
@@ -39,6 +39,12 @@ class PhoneHeader(QHeaderView):
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self._current = -1
         self._found: frozenset[int] = frozenset()
+        self._cell = 12
+
+    def set_cell(self, cell: int, size: int) -> None:
+        """Sections of `size` pixels, names in the font for `cell`."""
+        self._cell = cell
+        self.setDefaultSectionSize(size)
 
     def set_current(self, section: int) -> None:
         """The section of the current cell, -1 for none."""
@@ -56,10 +62,10 @@ class PhoneHeader(QHeaderView):
         painter = QPainter(self.viewport())
         painter.fillRect(event.rect(), theme.WINDOW)
         cell = self.defaultSectionSize()
-        painter.setFont(header_font(cell))
+        painter.setFont(header_font(self._cell))
         across = self.orientation() == Qt.Orientation.Horizontal
         phones = [str(self.model().headerData(i, self.orientation())) for i in range(self.count())]
-        upright = across and not fits_level(phones, cell)
+        upright = across and not fits_level(phones, self._cell, cell)
         for section, phone in enumerate(phones):
             at = self.sectionViewportPosition(section)
             rect = QRect(at, 0, cell, self.height()) if across else QRect(0, at, self.width(), cell)

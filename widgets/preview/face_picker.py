@@ -68,7 +68,7 @@ class FacePicker(QFrame):
         self.faces.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.faces.setSpacing(2)
         self.faces.setStyleSheet(
-            f"QListWidget::item{{border-radius:8px;padding:4px 0;color:{theme.TEXT.name()}}}"
+            f"QListWidget{{outline:0}}QListWidget::item{{border-radius:8px;padding:4px 0;color:{theme.TEXT.name()}}}"
             f"QListWidget::item:hover{{background:{theme.RAISED.name()}}}"
             f"QListWidget::item:selected{{background:{theme.CHECKED.name()};color:{theme.BRIGHT.name()}}}"
         )

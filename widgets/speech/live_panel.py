@@ -36,6 +36,7 @@ class LivePanel(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._running = self._can_replay = self._can_record = False
+        self._reason = ""
         self.devices = QComboBox()
         self.devices.setAccessibleName(self.tr("Microphone"))
         self.devices.setAccessibleDescription(self.tr("Which microphone is listened to"))
@@ -92,7 +93,8 @@ class LivePanel(QWidget):
                 self.devices.addItem(title, device)
             if not devices:
                 self.devices.addItem(self.tr("no microphone"), None)
-        self.message.setText(self.tr("{0}. A recording can still be replayed.").format(reason) if reason else "")
+        self._reason = self.tr("{0}. A recording can still be replayed.").format(reason) if reason else ""
+        self.set_message("")
         self._enable()
 
     def set_can_replay(self, on: bool) -> None:
@@ -119,8 +121,8 @@ class LivePanel(QWidget):
         self._enable()
 
     def set_message(self, text: str) -> None:
-        """One sentence."""
-        self.message.setText(text)
+        """One sentence; "" shows why there is no microphone, if there is none."""
+        self.message.setText(text or self._reason)
 
     def _enable(self) -> None:
         self.start.setEnabled(not self._running and self.devices.currentData() is not None)

@@ -72,7 +72,8 @@ class _Row:
             if is_tooth
             else 0.6 * smoothstep(0.3, 1.0, self.from_middle)[:, None]
         )
-        lower_back = 1 - 0.30 * np.abs(self.along[:, None]) ** 1.5
+        # (the lower ones more: where the jaw opens a little they would stand up beside the tongue)
+        lower_back = 1 - (0.30 if self.upper else 0.55) * np.abs(self.along[:, None]) ** 1.5
         across = section[:, 0] * size.thickness
         down = section[:, 1]
         if is_tooth:

@@ -111,6 +111,22 @@ def test_a_layer_keeps_its_base_and_goes_back_to_it(tmp_path: Path) -> None:
     assert read.settings is None
 
 
+def test_work_on_a_base_that_has_gone_is_not_lost(tmp_path: Path) -> None:
+    low = tmp_path / "low.json"
+    curve_set_json.save(CurveSet(name="Low", bigrams={("ah", "d"): Bigram({"W": HILL})}), low)
+    hero = CurveSet(name="Hero").on_base("low.json", curve_set_json.load(low)).with_bigram(F_AH, Bigram({"open": HILL}))
+    file = tmp_path / "1.journal"
+    journal.begin(file, Kept(hero, tmp_path / "hero.json", ""))
+    assert journal.read(file).curve_set.layer_of(("ah", "d")) == "Low"
+    low.unlink()
+    alone = journal.read(file).curve_set
+    assert alone.base is None
+    assert set(alone.bigrams) == {F_AH}
+    file.write_text(file.read_text().replace("Hero", "x" * 300).replace("low.json", ""))
+    with pytest.raises(UserError):
+        journal.read(file)
+
+
 def test_a_gesture_is_a_small_line(tmp_path: Path) -> None:
     english = curve_set_json.load(resources.english_curves())
     file = tmp_path / "1.journal"
