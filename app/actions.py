@@ -232,7 +232,7 @@ class Actions:
             "bigram.previous", tr("P&revious in the Sentence"), "Alt+Left", tr("The sentence's previous bigram")
         )
 
-        self.work_menu = menu.submenu(tr("W&ork Through All"))
+        self.work_menu = menu.submenu(tr("Wor&k Through All"))
 
         menu.line()
         self.new_tab = menu.add(
