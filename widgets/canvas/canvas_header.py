@@ -98,6 +98,7 @@ class CanvasHeader(QWidget):
         button.setIconSize(QSize(18, 18))
         button.setToolTip(tip)
         button.setAccessibleName(tip)
+        button.setText(tip)
         return button
 
     def set_bigram(self, first: str, second: str) -> None:
