@@ -215,8 +215,9 @@ class Actions:
             "bigram.play", tr("&Play the Bigram Alone"), "Shift+F5", tr("Play or stop the open bigram")
         )
         menu.line()
+        self.note = menu.add("bigram.note", tr("Not&e…"), (), tr("A few words about the open bigram, kept in the file"))
         self.revert = menu.add(
-            "bigram.revert", tr("Revert t&o Base"), (), tr("The open bigram as the set below has it")
+            "bigram.revert", tr("Revert to B&ase"), (), tr("The open bigram as the set below has it")
         )
         self.theirs = menu.add(
             "bigram.theirs",
@@ -234,7 +235,7 @@ class Actions:
             "bigram.previous", tr("P&revious in the Sentence"), "Alt+Left", tr("The sentence's previous bigram")
         )
 
-        self.work_menu = menu.submenu(tr("W&ork Through All"))
+        self.work_menu = menu.submenu(tr("Work Throu&gh All"))
 
         menu.line()
         self.new_tab = menu.add(

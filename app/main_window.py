@@ -108,7 +108,7 @@ class MainWindow(QMainWindow):
         self._docks()
         self._status()
         self._hidden = [dock.objectName() for dock in self.findChildren(QDockWidget) if dock.isHidden()]
-        self.focus_ring = FocusRing(self, bar, centre)
+        self.focus_ring = FocusRing(self, self._homes, bar, centre)
         self.setAcceptDrops(True)
         self.setMinimumSize(1120, 640)
         self.resize(1600, 1000)
