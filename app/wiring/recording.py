@@ -16,6 +16,7 @@ from core_pipeline.files.labels.read import ENDINGS
 from core_pipeline.phonemes import SILENCE
 from core_pipeline.schedule import Schedule
 from core_pipeline.speech.audio_file import SOUND_FILES, VIDEO_FILES
+from core_pipeline.speech.espeak import VOICES
 from core_pipeline.speech.intake import transcript_of
 from core_pipeline.speech.recognise import Heard
 from core_pipeline.speech.utterance import Audio, Utterance
@@ -154,7 +155,8 @@ class Recording(QObject):
         """Find when the words sound."""
         if self.audio is not None and self.may_discard():
             self._panel.set_message(self.tr("Aligning …"))
-            self.hearing.align(self.audio, text, self._sentence.voice)
+            voice = self._sentence.voice if self._sentence.voice in VOICES else next(iter(VOICES))
+            self.hearing.align(self.audio, text, voice)
 
     def _recognise(self) -> None:
         if self.audio is not None:

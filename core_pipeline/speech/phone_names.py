@@ -27,7 +27,8 @@ def _table(text: str) -> dict[str, tuple[str, ...]]:
 #: Silence, noise and breath, in any alphabet, lower case.
 _SILENT = """
 sil sp ssil pau h# # #b #e epi brth br breath _ - -- . .. ... spn sp_s <sil> <s> </s> <eps> <p:> <p> <noise> noise nsn
-nse nz lau laugh laughter cough ++noise++ ++breath++ <unk> unk oov xxx pause silence sil_s sil_e h#_ noi h\\# %
+nse nz vocnoise iver cutoff lau laugh laughter cough ++noise++ ++breath++ unk oov xxx pause silence sil_b sil_s sil_e
+h#_ noi h\\# %
 """
 SILENCES = frozenset(_SILENT.split())
 
@@ -181,7 +182,8 @@ def plain(name: str, alphabet: str) -> str:
     """The name as the alphabet's table has it: ARPAbet in small letters without stress, IPA without marks."""
     name = name.strip()
     if alphabet == "ARPAbet":
-        return re.sub(r"(?<=[a-z])[0-9]$", "", name.lower().strip("_"))
+        bare = re.sub(r"_[bies]$", "", name.lower())  # Kaldi marks begin, inside, end, single
+        return re.sub(r"(?<=[a-z])[0-9]$", "", bare)
     if alphabet == "IPA":
         name = unicodedata.normalize("NFC", name)
         if name in _IPA:
@@ -193,7 +195,8 @@ def plain(name: str, alphabet: str) -> str:
 
 def is_silence(name: str) -> bool:
     """Whether a label names no sound of speech."""
-    return not name.strip() or name.strip().lower() in SILENCES
+    bare = name.strip().lower()
+    return not bare or bare in SILENCES or re.fullmatch(r"<.*>|\{.+\}|\[.*\]|\(.*\)", bare) is not None
 
 
 def alphabet_of(names: Iterable[str]) -> str:

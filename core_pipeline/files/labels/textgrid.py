@@ -90,6 +90,7 @@ def _tier(tokens: Sequence[str | float], at: int) -> tuple[_Tier, bool]:
 def _choose(tiers: Sequence[_Tier], place: str, notes: list[str]) -> tuple[list[Interval], list[Interval]]:
     """The tiers of phones and of words: by name, else the one whose labels are phones of an alphabet."""
     phones = [tier for tier in tiers if _PHONES.search(tier.name) and not _WORDS.search(tier.name)]
+    phones = [tier for tier in phones if _known_part(tier) > 0.3] or phones  # canonical forms of words are none
     if not phones:
         phones = [tier for tier in tiers if _known_part(tier) > 0.6]
     if not phones and len(tiers) == 1:

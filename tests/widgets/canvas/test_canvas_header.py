@@ -47,14 +47,14 @@ def test_the_letters_of_the_bigram_stand_out(header):
     assert "&gt;&amp;”" in header.detail
 
 
-def test_it_gives_up_words_then_the_example_then_the_use_where_it_is_narrow(header):
+def test_it_gives_up_words_then_the_use_then_the_status_where_it_is_narrow(header):
     shown = []
     for width in range(900, 120, -5):
         header.resize(width, header.height())
         now = [part in header.detail for part in ("as in", "in this sentence", "used", "draft")]
         if not shown or shown[-1] != now:
             shown.append(now)
-    stages = [[1, 1, 1, 1], [1, 0, 1, 1], [0, 0, 1, 1], [0, 0, 0, 1], [0, 0, 0, 0]]
+    stages = [[1, 1, 1, 1], [1, 0, 1, 1], [1, 0, 0, 1], [1, 0, 0, 0], [0, 0, 0, 0]]
     assert shown[0] == stages[0]
     assert shown[-4:] == stages[-4:]  # before that, where some buttons go, a little room comes back
     assert all(now in stages for now in shown)
