@@ -197,10 +197,12 @@ class Actions:
         )
 
     def _one_of(self, menu: Menu, kind: str, titles: Mapping[str, str], *, numbered: bool = False) -> QActionGroup:
-        """A choice of exactly one, the first at the start; `numbered`: Ctrl+1 and so on choose."""
+        """A choice of exactly one, the first at the start; `numbered`: Ctrl+2 and so on choose the others."""
         group = menu.choice()
         for number, (name, title) in enumerate(titles.items(), 1):
-            action = menu.add(f"{kind}.{name}", title, f"Ctrl+{number}" if numbered else (), checked=number == 1)
+            action = menu.add(
+                f"{kind}.{name}", title, f"Ctrl+{number}" if numbered and number > 1 else (), checked=number == 1
+            )
             action.setData(name)
             group.addAction(action)
         return group
@@ -213,8 +215,9 @@ class Actions:
             "bigram.play", tr("&Play the Bigram Alone"), "Shift+F5", tr("Play or stop the open bigram")
         )
         menu.line()
+        self.note = menu.add("bigram.note", tr("Not&e…"), (), tr("A few words about the open bigram, kept in the file"))
         self.revert = menu.add(
-            "bigram.revert", tr("Revert t&o Base"), (), tr("The open bigram as the set below has it")
+            "bigram.revert", tr("Revert to B&ase"), (), tr("The open bigram as the set below has it")
         )
         self.theirs = menu.add(
             "bigram.theirs",
@@ -232,7 +235,7 @@ class Actions:
             "bigram.previous", tr("P&revious in the Sentence"), "Alt+Left", tr("The sentence's previous bigram")
         )
 
-        self.work_menu = menu.submenu(tr("W&ork Through All"))
+        self.work_menu = menu.submenu(tr("Work Throu&gh All"))
 
         menu.line()
         self.new_tab = menu.add(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QWidget
 
@@ -9,12 +11,14 @@ from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QWidget
 class FocusRing(QObject):
     """Goes round, and comes back to what had the focus in a part before.
 
-    first  parts that are no docks, in their order: a part, or the widget in it that takes the focus
+    docks  the names of the docks in their order; the owner may add more
+    first  the parts that are no docks
     """
 
-    def __init__(self, window: QMainWindow, *first: QWidget) -> None:
+    def __init__(self, window: QMainWindow, docks: Collection[str], *first: QWidget) -> None:
         super().__init__(window)
         self._window = window
+        self._docks = docks
         self._first = first
         self._last: dict[QWidget, QWidget] = {}
         self._marked: QDockWidget | None = None
@@ -33,9 +37,9 @@ class FocusRing(QObject):
                 return
 
     def _parts(self) -> list[QWidget]:
-        docks = [dock for dock in self._window.findChildren(QDockWidget) if not dock.isHidden()]
-        docks.sort(key=lambda dock: (dock.mapTo(self._window, dock.rect().topLeft()).x() // 100, dock.y()))
-        return [*(part for part in self._first if part.isVisible()), *docks]
+        docks = {dock.objectName(): dock for dock in self._window.findChildren(QDockWidget)}  # raising reorders them
+        shown = (docks[name] for name in self._docks if name in docks and not docks[name].isHidden())
+        return [*(part for part in self._first if part.isVisible()), *shown]
 
     def _enter(self, part: QWidget) -> bool:
         if isinstance(part, QDockWidget):

@@ -108,7 +108,7 @@ class MainWindow(QMainWindow):
         self._docks()
         self._status()
         self._hidden = [dock.objectName() for dock in self.findChildren(QDockWidget) if dock.isHidden()]
-        self.focus_ring = FocusRing(self, bar, centre)
+        self.focus_ring = FocusRing(self, self._homes, bar, centre)
         self.setAcceptDrops(True)
         self.setMinimumSize(1120, 640)
         self.resize(1600, 1000)
@@ -180,7 +180,7 @@ class MainWindow(QMainWindow):
     def show_beside(self, on: bool) -> None:
         """One canvas, or two of the same width; Space plays where there is no room for the button."""
         self.bigram_transport.setVisible(not on)
-        poses = self._canvases.sizes()[0]
+        poses = self.pose_list.sizeHint().width()
         room = self._canvases.width() - poses
         self.beside.setVisible(on)
         self._canvases.setSizes([poses, room // 2, room // 2] if on else [poses, room, 0])

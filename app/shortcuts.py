@@ -17,7 +17,12 @@ from .settings import ViewState
 KEYMAP_DEFAULTS: Mapping[str, Mapping[str, tuple[str, ...]]] = MappingProxyType(
     {
         NEUTRAL: {},
-        "Maya": {"playback.play": ("Alt+V", "F5"), "edit.redo": ("Ctrl+Y", "Shift+Z"), "edit.undo": ("Ctrl+Z", "Z")},
+        "Maya": {
+            "playback.play": ("Alt+V", "F5"),
+            "edit.redo": ("Ctrl+Y", "Shift+Z"),
+            "edit.undo": ("Ctrl+Z", "Z"),
+            "camera.front": (),  # Ctrl+1 isolates a pose there; Ctrl+0 does the same
+        },
         "Blender": {"tools.palette": ("F3", "Ctrl+K")},
     }
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import unicodedata
 from pathlib import Path
 
 import numpy as np
@@ -49,7 +50,7 @@ def film_strip(options: argparse.Namespace) -> int:
             x, y = i % columns * width, i // columns * (height + 2 * _LABEL)
             strip.paste(frames.picture(rows[i]), (x, y))
             place = (x + width // 2, y + height + _LABEL)
-            draw.text(place, shown(phone, 12), _INK, ImageFont.load_default(_LABEL), anchor="mm")
+            draw.text(place, _plain(phone), _INK, ImageFont.load_default(_LABEL), anchor="mm")
             progress.step(i + 1)
     save_png(strip, out)
     print(f"{len(moments)} pictures in {out}")
@@ -60,3 +61,9 @@ def moments_of(schedule: Schedule) -> list[tuple[str, float]]:
     """(phone, the middle of its time) of every phone that is heard."""
     spans = zip(schedule.phones, schedule.times[:-1], schedule.times[1:], strict=True)
     return [(phone, float(start + end) / 2) for phone, start, end in spans if phone != SILENCE]
+
+
+def _plain(phone: str) -> str:
+    """As the font can write it: ü is u:, as in pinyin on old machines."""
+    parts = unicodedata.normalize("NFKD", phone).replace("\u0308", ":")
+    return shown(parts.encode("ascii", "ignore").decode() or "?", 12)

@@ -101,9 +101,11 @@ class Character(QObject):
             self.company.change(guest, path)
 
     def send_away(self, place: int) -> None:
-        """One face less; when it was the first, its neighbour becomes the first."""
+        """One face less; when it was the first, its neighbour becomes the first. A rival's leaving ends comparing."""
         guest = self.company.guest_at(place)
-        if guest is not None:
+        if guest is None and self.company.compares:
+            self.company.compare(())
+        elif guest is not None:
             self.company.remove(guest)
         elif self.company.paths:
             self.open(self.company.remove(0))

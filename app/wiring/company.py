@@ -58,6 +58,11 @@ class Company(QObject):
         """Whether no other face fits."""
         return 1 + len(self._rivals) + len(self._guests) >= MOST
 
+    @property
+    def compares(self) -> bool:
+        """Whether the first face is shown more than once."""
+        return bool(self._rivals)
+
     def set_first(self, opened: Opened) -> None:
         """The face that the editor is about."""
         self._first = opened

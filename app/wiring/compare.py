@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, QTimer
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QFileDialog
 
@@ -120,6 +120,12 @@ class Compare(QObject):
             (self.nothing if self.other is None else self.opening).setChecked(True)
 
     def _replaced(self) -> None:
+        """Another set, or a great change of this one: which of the two shows when the undo stack has heard of it."""
+        QTimer.singleShot(0, self, self._begin)
+
+    def _begin(self) -> None:
+        if self._document.undo_stack.count():
+            return
         self._opened = self._document.curve_set
         self.nothing.setChecked(True)
         self.use(None)

@@ -80,6 +80,7 @@ class OtherMethod(QObject):
         self._learner.progressed.connect(self._progressed)
         self._box.chosen.connect(self.choose)
         self._box.beside_toggled.connect(self._show_faces)
+        company.changed.connect(self._company_changed)
         self._session.stages_changed.connect(self._stages_changed)
         self._document.replaced.connect(lambda: self.choose(NONE))
 
@@ -162,6 +163,12 @@ class OtherMethod(QObject):
         panel.set_method(self.weights)
         self._box.set_differences(differences(ours, self.weights))
         self._show_faces()
+
+    def _company_changed(self) -> None:
+        """The user may send the second face away."""
+        if self._is_beside and not self._company.compares:
+            self._is_beside = False
+            self._box.beside.setChecked(False)
 
     def _show_faces(self, _: bool = False) -> None:
         was, self._is_beside = self._is_beside, self.weights is not None and self._box.beside.isChecked()

@@ -76,13 +76,19 @@ class Suggesting(QObject):
         else:
             hint.setText(self.tr("No bigram is empty, or nothing drawn says what the empty ones should do"))
 
+    def _fits(self, pair: Pair, diagnosis: Diagnosis) -> bool:
+        """Whether it is of this set, not of the one that was open a moment ago."""
+        known = diagnosis.suggestions
+        same = known.poses == self._document.curve_set.poses
+        return same and SILENCE not in pair and set(pair) <= {*known.phones}
+
     def _show(self, _: Pair | Diagnosis | None = None) -> None:
         """What is suggested for the open bigram: its ghost while it is empty, else something to slide to."""
         pair, canvas = self._bigram.pair, self._window.canvas
         diagnosis = self._weak.diagnosis
         was_offered, self._offered = self._offered, None
         name = self.tr("suggestion")
-        if pair is None or diagnosis is None or SILENCE in pair or not set(pair) <= {*diagnosis.suggestions.phones}:
+        if pair is None or diagnosis is None or not self._fits(pair, diagnosis):
             canvas.set_blend_target(name, None)
         else:
             suggested = diagnosis.suggestions.bigram(pair)

@@ -21,6 +21,8 @@ from .sentence import Sentence
 
 #: What may lag a moment behind a drag does so for this long; a whole text, for longer.
 LATE_MS, CORPUS_MS = 120, 1500
+#: Nobody reads on from here.
+MOST_ROWS = 400
 
 
 class Weak(QObject):
@@ -190,7 +192,7 @@ class Weak(QObject):
 
     def _show(self, weak: tuple[WeakBigram, ...]) -> None:
         w = self._window
-        w.weak_list.set_rows([row for one in weak for row in self._rows(one)])
+        w.weak_list.set_rows([row for one in weak for row in self._rows(one)][:MOST_ROWS])
         told = {one.pair: one for one in weak if not one.is_hint}
         most = max((one.score for one in told.values()), default=0.0)
         w.picker.set_weak(

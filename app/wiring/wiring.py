@@ -35,6 +35,7 @@ from .layouts import Layouts
 from .learning import Learning
 from .looks import Looks
 from .mapping import Mapping
+from .notes import Notes
 from .open_bigram import OpenBigram
 from .other_method import OtherMethod
 from .palette import Palette
@@ -87,6 +88,7 @@ class Wiring(QObject):
         self.learning = Learning(parts, self)
         self.studying = Studying(parts, self)
         self.statistics = Statistics(parts, self.queue, self)
+        self.notes = Notes(parts, self.bigram, self)
         self.layers = Layers(parts, self.bigram, self)
         self.phone_sets = PhoneSets(parts, self)
         self.palette = Palette(parts, self.bigram, self.sentence, self)

@@ -21,6 +21,10 @@ _SHOULDERS = ("shirt", "collar", "neck")
 _SHOULDER = 0.06
 #: Beyond this part of the half picture nothing was meant to be seen.
 _SEEN = 1.1
+#: So high, in the same parts, a crown may stand over the middle.
+_CROWN = 2.0
+#: Points that tell the outline of any mesh; of a finer one only some are looked at.
+_ENOUGH = 8_000
 #: Width of a close view in widths of the mouth.
 _ROUND_MOUTH = 1.7
 _OPEN = frozenset({"jawopen", "open", "mouthopen", "visemeaa", "jawdrop", "vopen", "aa", "fclmtha", "a"})
@@ -66,7 +70,9 @@ def head_outline(face: Face) -> Floats:
             return np.vstack([_silhouette(head), below])
     camera = face.camera
     reach = _SEEN * camera.distance * np.tan(np.radians(camera.fov / 2))
-    seen = np.abs(points[:, :2] - np.asarray(camera.target)[:2]).max(axis=1) <= reach
+    across, up = (points[:, :2] - np.asarray(camera.target, np.float32)[:2]).T
+    # A jaw tells little of the crown: over the head there is nothing else, so all that is up there belongs to it.
+    seen = (np.abs(across) <= reach) & (up >= -reach) & (up <= _CROWN * reach)
     return _silhouette(points[seen] if seen.any() else points)
 
 
@@ -184,5 +190,7 @@ def _silhouette(points: Floats) -> Floats:
     """Those of the points that stand out farthest in some direction: as good as all for a frame, and few."""
     turn, lift = np.meshgrid(np.linspace(0, 2 * np.pi, 24, endpoint=False), np.linspace(-1.4, 1.4, 9))
     rays = np.stack([np.cos(lift) * np.sin(turn), np.sin(lift), np.cos(lift) * np.cos(turn)], -1).reshape(-1, 3)
+    ends = points[np.concatenate([points.argmin(axis=0), points.argmax(axis=0)])]
+    points = np.vstack([ends, points[:: max(len(points) // _ENOUGH, 1)]])
     outline: Floats = points[np.unique((points @ rays.T.astype(np.float32)).argmax(axis=0))]
     return outline

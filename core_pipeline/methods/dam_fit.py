@@ -27,6 +27,8 @@ Ints = NDArray[np.intp]
 
 #: Frames a second that a fit looks at; a phone of 50 ms still has three.
 FIT_FPS = 60.0
+#: … and how many in all; of a longer corpus it looks at every second, third, … (a frame takes a kilobyte).
+FIT_FRAMES = 250_000
 #: Occurrences from which affinity propagation looks at some only: it takes their square in memory.
 MOST_POINTS = 600
 
@@ -124,6 +126,7 @@ def _frames(corpus: Corpus, segments: Segments, first: Ints, mode: Ints, degree:
     """The frames to fit, and their weights (f, poses). A phone that was not seen counts as its first mode."""
     number = {phone: i for i, phone in enumerate(corpus.phones)}
     reaches, targets = [], []
+    thin = -(-sum(len(clip.weights.frames) for clip in corpus) // FIT_FRAMES)
     for c, clip in enumerate(corpus):
         if not len(clip.schedule):
             continue
@@ -131,7 +134,7 @@ def _frames(corpus: Corpus, segments: Segments, first: Ints, mode: Ints, degree:
         mine = segments.clip == c
         states[segments.index[mine]] += mode[mine]
         use = clip.usable().nonzero()[0]
-        every = max(1, round(clip.weights.fps / FIT_FPS))
+        every = max(1, round(clip.weights.fps / FIT_FPS), thin)
         use = use[::every]
         reaches.append(reach_of(clip.schedule, states, clip.frame_times[use], degree))
         targets.append(clip.weights.frames[use].astype(np.float64))

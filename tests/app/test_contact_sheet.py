@@ -105,3 +105,10 @@ def test_what_cannot_be_drawn_is_said(options, told, tmp_path, monkeypatch, caps
     assert told in err
     assert err.count("\n") == 1
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_sheet_takes_the_looks_of_clips(tmp_path):
+    out = tmp_path / "sheet.png"
+    assert main(["contact-sheet", "toon", "--out", str(out), "--size", "64x64", "--background", "green"]) == 0
+    colours = Image.open(out).convert("RGB").getcolors(1 << 20)
+    assert max(count for count, colour in colours if colour == (0, 177, 64)) > 20_000

@@ -66,12 +66,13 @@ def test_a_drag_waits_for_no_diagnosis(editor, qtbot):
     editor.wiring.sentence.type("Fat cats often find fish.", play=False)
     with qtbot.waitSignal(editor.wiring.weak.diagnosed, timeout=20_000, check_params_cb=lambda d: d.stages is not None):
         pass
-    before = editor.wiring.weak.diagnosis
+    weak = editor.wiring.weak
+    asked = weak._diagnoser._number
     curve = Curve.of([(0, 0), (0.5, 0.9), (1, 0)])
     for _ in range(5):
         with qtbot.waitSignal(editor.session.stages_changed):
             editor.session.set_preview(("f", "ah"), {"open": curve})
-    qtbot.wait(400)
-    assert editor.wiring.weak.diagnosis is before
-    with qtbot.waitSignal(editor.wiring.weak.diagnosed, timeout=20_000):
+    qtbot.waitUntil(lambda: not weak._late.isActive())
+    assert weak._diagnoser._number == asked
+    with qtbot.waitSignal(weak.diagnosed, timeout=20_000):
         editor.session.set_preview(("f", "ah"), None)

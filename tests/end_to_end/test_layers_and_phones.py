@@ -3,8 +3,9 @@
 from dataclasses import replace
 from pathlib import Path
 
+import pytest
 from PySide6.QtCore import Qt, QTimer
-from PySide6.QtWidgets import QApplication, QDialogButtonBox
+from PySide6.QtWidgets import QApplication, QDialogButtonBox, QInputDialog
 from pytestqt.qtbot import QtBot
 
 from app.editor import Editor
@@ -98,3 +99,17 @@ def test_after_a_merge_the_other_side_is_seen_and_one_is_approved(editor: Editor
     assert open_conflicts(document.curve_set) == []
     assert not actions.theirs.isEnabled()
     assert document.curve_set.bigrams[F_AH].curves["open"].keys() == [(0, 0.8)]
+
+
+def test_a_note_stands_in_the_header_and_in_the_file(
+    editor: Editor, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    editor.wiring.bigram.open(F_AH)
+    monkeypatch.setattr(QInputDialog, "getMultiLineText", lambda *_: (" <b>lips</b>\nearlier ", True))
+    editor.window.actions_.note.trigger()
+    assert "“<b>lips</b> earlier”" in editor.window.header.text
+    assert "&lt;b&gt;lips" in editor.window.header.toolTip()  # no markup
+    editor.document.save(tmp_path / "mine.json")
+    assert curve_set_json.load(tmp_path / "mine.json").bigrams[F_AH].note == "<b>lips</b>\nearlier"
+    editor.document.undo_stack.undo()
+    assert "lips" not in editor.window.header.text

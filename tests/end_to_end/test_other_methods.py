@@ -30,6 +30,10 @@ def test_a_model_beside_ours(editor, qtbot, tmp_path):
     assert box.table.rowCount() == 9
     qtbot.mouseClick(box.beside, Qt.MouseButton.LeftButton)
     assert [actor.name for actor in editor.preview.actors] == ["These curves", "Viseme interpolation"]
+    editor.wiring.character.send_away(1)
+    assert len(editor.preview.actors) == 1
+    assert not box.beside.isChecked()
+    qtbot.mouseClick(box.beside, Qt.MouseButton.LeftButton)
     source = editor.preview.actors[1].source
     middle = len(other.weights.frames) // 2
     assert source.weights_at(other.weights.start + middle / 60) == pytest.approx(other.weights.frames[middle], abs=1e-6)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QMenu
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app import resources
@@ -307,10 +307,36 @@ def test_time_is_counted_while_there_is_work(editor: Editor) -> None:
     assert editor.window.header._spent == f"{spent.seconds[F_AH] // 60}:{spent.seconds[F_AH] % 60:02}"
 
 
-def test_no_two_commands_of_the_whole_window_share_a_key_or_a_mnemonic(editor: Editor) -> None:
+def test_no_two_commands_of_the_whole_window_share_a_key(editor: Editor) -> None:
     keys = [key for entry in editor.window.actions_.registry for key in entry.default]
     assert {key for key in keys if keys.count(key) > 1} == set()
-    for menu in editor.window.findChildren(QMenu):
-        texts = [action.text().casefold() for action in menu.actions() if "&" in action.text()]
+    actions = editor.window.actions_
+    for menu in (actions.bigram_menu, actions.work_menu, actions.tools_menu):
+        texts = [action.text().casefold() for action in menu.menu.actions() if "&" in action.text()]
         letters = [text[text.index("&") + 1] for text in texts]
         assert len(letters) == len(set(letters)), texts
+
+
+def test_nothing_is_suggested_from_the_set_that_was_open_before(editor: Editor, qtbot: QtBot) -> None:
+    say(editor, qtbot, "Fat.")
+    editor.wiring.bigram.open(F_AH)
+    assert editor.wiring.suggesting.accept_action.isEnabled()
+    crab = curve_set_json.load(resources.english_curves().with_name("crab.json"))
+    editor.document.new(crab.with_bigram(F_AH, None))
+    assert editor.wiring.bigram.pair == F_AH
+    assert not editor.wiring.suggesting.accept_action.isEnabled()
+    after_diagnosis(editor, qtbot)
+    editor.wiring.suggesting.accept()
+    assert set(editor.document.curve_set.bigrams[F_AH].curves) <= set(crab.poses)
+    assert editor.document.curve_set.bigrams[F_AH].curves["mouth open"].v.max() > 0.2
+
+
+def test_the_version_at_opening_outlives_a_great_change(editor: Editor, qtbot: QtBot) -> None:
+    compare, opened = editor.wiring.compare, editor.document.curve_set
+    compare.opening.trigger()
+    assert compare.other is opened
+    editor.document.change_set(replace(opened, name="Renamed"), "Rename")
+    qtbot.waitUntil(lambda: editor.session.curve_set.name == "Renamed")
+    assert compare.other is opened
+    editor.document.new(opened)
+    qtbot.waitUntil(lambda: compare.other is None)

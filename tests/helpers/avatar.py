@@ -106,7 +106,8 @@ def packed(raw: np.ndarray, _mode: str = "ATTRIBUTES") -> bytes:
     return bytes(stream) + bytes(max(32 - stride, 0)) + raw[0].tobytes()
 
 
-def _piece(name: str, shapes: Sequence[str]) -> Piece:
+@cache
+def _piece(name: str, shapes: tuple[str, ...]) -> Piece:
     face = toon()
     triangles = np.concatenate([face.triangles[a : a + n] for a, n in (face.parts[part] for part in MESHES[name])])
     used, corners = np.unique(triangles, return_inverse=True)

@@ -41,6 +41,7 @@ class BigramTransport(QWidget):
         self.button.setIcon(theme.icon("stop" if playing else "play-circle-outline"))
         self.button.setToolTip(tip)
         self.button.setAccessibleName(tip)
+        self.button.setText(tip)
 
     def set_length(self, seconds: float) -> None:
         """How long it takes; emits nothing."""

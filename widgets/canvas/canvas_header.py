@@ -13,8 +13,10 @@ from .. import theme
 
 _GAP = "\u2002·\u2002"
 
-#: Pixels from which on every button is shown.
-ROOMY = 560
+#: Pixels that the text keeps; buttons that would take them are left out.
+TEXT = 210
+#: Letters of a note that stand in the line.
+NOTE = 40
 
 _ACTIONS = (
     ("frame_all", "arrow-expand-all", QT_TRANSLATE_NOOP("CanvasHeader", "Frame all")),
@@ -25,14 +27,15 @@ _ACTIONS = (
     ("duplicate", "content-duplicate", QT_TRANSLATE_NOOP("CanvasHeader", "Duplicate from a similar bigram")),
     ("slide", "compare-horizontal", QT_TRANSLATE_NOOP("CanvasHeader", "Slide to another version")),
 )
-_SPARE = ("reverse", "mirror", "copy", "paste", "duplicate", "slide")
+#: Those that go where there is no room, the last one first: keys do the same.
+_SPARE = ("duplicate", "slide", "reverse", "mirror", "copy", "paste")
 
 
 class CanvasHeader(QWidget):
     """“F – Ah  as in “fat” · used 2× in this sentence · draft”, two switches, and buttons for what keys do too.
 
-    Where there is no room some buttons go first, then words, the example, the use; the tooltip always has the
-    whole line.
+    Where there is no room some buttons go first, then words, the use, the status, the example; the tooltip
+    always has the whole line.
     """
 
     snap_toggled = Signal(bool)
@@ -50,6 +53,7 @@ class CanvasHeader(QWidget):
         self._status = ""
         self._spent = ""
         self._layer = ""
+        self._note = ""
         self._title = QLabel()
         self._title.setFont(theme.font(15, bold=True))
         self._title.setAccessibleName(self.tr("Open bigram"))
@@ -95,6 +99,7 @@ class CanvasHeader(QWidget):
         button.setIconSize(QSize(18, 18))
         button.setToolTip(tip)
         button.setAccessibleName(tip)
+        button.setText(tip)
         return button
 
     def set_bigram(self, first: str, second: str) -> None:
@@ -133,6 +138,12 @@ class CanvasHeader(QWidget):
         self._revert.setVisible(own)
         self._show()
 
+    def set_note(self, text: str) -> None:
+        """The animator's words about the bigram; the line has their beginning, the tooltip all of them."""
+        if text != self._note:
+            self._note = text
+            self._show()
+
     @property
     def revert(self) -> QToolButton:
         """The button that goes back to the set below."""
@@ -170,8 +181,11 @@ class CanvasHeader(QWidget):
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Fits the line."""
         super().resizeEvent(event)
-        for action in _SPARE:
-            self._actions[action].setVisible(event.size().width() >= ROOMY)
+        button = self._snap.sizeHint().width() + self._layout.spacing()
+        always = len(self.buttons) - len(_SPARE)
+        left = event.size().width() - self._title.sizeHint().width() - TEXT - always * button
+        for place, action in enumerate(_SPARE):
+            self._actions[action].setVisible(left >= (place + 1) * button)
         self._show()
 
     def _parts(self, *, short: bool = False) -> list[tuple[str, str]]:
@@ -191,10 +205,15 @@ class CanvasHeader(QWidget):
             parts.append((self._status, escape(self._status)))
         if self._layer:
             parts.append((self._layer, escape(self._layer)))
+        if self._note:
+            line = " ".join(self._note.split())
+            short_note = line if len(line) <= NOTE else f"{line[: NOTE - 1]}…"
+            parts.append((f"“{short_note}”", escape(f"“{short_note}”")))
         return parts
 
     def _show(self) -> None:
-        self.setToolTip(self.text)
+        tip = f"{self.text}\n{self._note}" if self._note else self.text
+        self.setToolTip(f"<qt>{escape(tip)}</qt>".replace("\n", "<br>") if "<" in tip else tip)  # never markup
         self._detail.setAccessibleDescription(self.text)
         self._layout.activate()
         room = self._detail.width() - 8
@@ -205,7 +224,7 @@ class CanvasHeader(QWidget):
         if self._spent and self._length([*parts, spent]) <= room:
             parts.append(spent)
         while parts and self._length(parts) > room:
-            parts.pop(0)
+            parts.pop(1 if self._word and len(parts) > 1 else 0)
         self._detail.setText(_GAP.join(rich for _, rich in parts))
 
     def _length(self, parts: Sequence[tuple[str, str]]) -> int:

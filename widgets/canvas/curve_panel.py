@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, QTimer
+from PySide6.QtCore import QSize, Qt, QTimer
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QSplitter, QToolButton, QVBoxLayout, QWidget
 
 from .. import theme
@@ -12,6 +13,9 @@ from .value_bar import ValueBar
 
 #: Pixels of the table, and of the canvas when it is first asked.
 TABLE, WIDE = 150, 800
+
+#: Pixels of the whole at least, and from which on the button has its word.
+NARROWEST, WITH_WORD = 240, 300
 
 #: Milliseconds the table may lag behind a drag.
 LAG = 30
@@ -74,6 +78,17 @@ class CurvePanel(QWidget):
         ):
             QWidget.setTabOrder(before, after)
         self._show()
+
+    def minimumSizeHint(self) -> QSize:
+        """Narrower than its parts want to be: then the button loses its word."""
+        return QSize(NARROWEST, super().minimumSizeHint().height())
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """The button's word where there is room."""
+        super().resizeEvent(event)
+        style = Qt.ToolButtonStyle
+        wide = event.size().width() >= WITH_WORD
+        self.table_button.setToolButtonStyle(style.ToolButtonTextBesideIcon if wide else style.ToolButtonIconOnly)
 
     def show_table(self, on: bool) -> None:
         """Whether the table stands beside the canvas."""

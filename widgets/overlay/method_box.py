@@ -8,10 +8,12 @@ from PySide6.QtCore import QPoint, QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QComboBox,
+    QFrame,
     QHBoxLayout,
     QTableWidget,
     QTableWidgetItem,
     QToolButton,
+    QVBoxLayout,
     QWidget,
 )
 
@@ -49,12 +51,20 @@ class MethodBox(QWidget):
         self.beside.setIcon(theme.icon("account-multiple-outline"))
         self.beside.setToolTip(self.tr("Two faces side by side: this set, and the other method"))
         self.beside.setAccessibleName(self.beside.toolTip())
+        self.beside.setText(self.beside.toolTip())
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(2)
         for widget in (self.details, self.beside, self.box):
             row.addWidget(widget)
+        self.popup = QFrame(self)  # not the table itself: that one would keep Escape and clicks outside to itself
+        self.popup.setWindowFlags(Qt.WindowType.Popup)
+        self.popup.setFrameShape(QFrame.Shape.StyledPanel)
         self.table = self._table()
+        inside = QVBoxLayout(self.popup)
+        inside.setContentsMargins(1, 1, 1, 1)
+        inside.addWidget(self.table)
+        self.popup.setFocusProxy(self.table)
         self.box.activated.connect(lambda _: self.chosen.emit(self.box.currentData()))
         self.beside.toggled.connect(self.beside_toggled)
         self.details.clicked.connect(self._show_table)
@@ -87,7 +97,7 @@ class MethodBox(QWidget):
         self.details.setVisible(there)
         self.beside.setVisible(there)
         self.details.setEnabled(there)
-        self.table.setVisible(self.table.isVisible() and there)
+        self.popup.setVisible(self.popup.isVisible() and there)
         rows = sorted(found or (), key=lambda d: -d.rmse)
         whole = (sum(d.rmse**2 for d in rows) / len(rows)) ** 0.5 if rows else 0.0
         self.details.setText(self.tr("RMSE {0}").format(f"{whole:.3f}"))
@@ -101,25 +111,24 @@ class MethodBox(QWidget):
                 self.table.setItem(i, column, item)
 
     def _table(self) -> QTableWidget:
-        table = QTableWidget(0, 3, self)
-        table.setWindowFlags(Qt.WindowType.Popup)
+        table = QTableWidget(0, 3)
         table.setHorizontalHeaderLabels([self.tr("Pose"), self.tr("RMSE"), self.tr("Peak difference")])
         table.setAccessibleName(self.tr("Differences, pose by pose"))
+        table.setAccessibleDescription(self.tr("How far the two methods are apart"))
         table.verticalHeader().hide()
         table.setColumnWidth(0, 80)
         table.setColumnWidth(1, 80)
         table.horizontalHeader().setStretchLastSection(True)
         table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         table.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
-        table.hide()
         return table
 
     def _show_table(self) -> None:
         rows = self.table.rowCount()
-        tall = self.table.horizontalHeader().sizeHint().height() + 6
+        tall = self.table.horizontalHeader().sizeHint().height() + 8
         tall += sum(self.table.rowHeight(i) for i in range(rows))
-        self.table.resize(QSize(300, tall))
+        self.popup.resize(QSize(300, tall))
         corner = self.details.mapToGlobal(QPoint(0, 0))
-        self.table.move(corner.x(), max(corner.y() - self.table.height(), 0))
-        self.table.show()
+        self.popup.move(corner.x(), max(corner.y() - tall, 0))
+        self.popup.show()
         self.table.setFocus()

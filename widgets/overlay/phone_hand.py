@@ -62,6 +62,7 @@ class PhoneHand(StageOverlay):
         self.field = PhoneField(self)
         self.field.hide()
         self.field.setAccessibleName(self.tr("Name of the phone"))
+        self.field.setAccessibleDescription(self.tr("Enter renames the phone"))
         completer = QCompleter(self._choices, self.field)
         completer.setCompletionMode(QCompleter.CompletionMode.InlineCompletion)
         self.field.setCompleter(completer)

@@ -74,6 +74,7 @@ class BigramPicker(QWidget):
         self.order.setIcon(theme.icon("sort", theme.MUTED))
         self.order.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
         self.order.setToolTip(self.tr("Order of rows and columns"))
+        self.order.setText(self.tr("Order of rows and columns"))
         self.order.setAccessibleName(self.tr("Order of rows and columns"))
         self.order.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.order.setMenu(QMenu(self.order))
@@ -122,6 +123,7 @@ class BigramPicker(QWidget):
             for action in self.order.menu().actions():
                 action.setChecked(action.text() == name)
             self.order.setToolTip(self.tr("Order of rows and columns: %1").replace("%1", name))
+            self.order.setText(self.tr("Order of rows and columns: %1").replace("%1", name))
             self.set_phonemes(self._orders[name])
 
     def set_statuses(self, statuses: Mapping[Pair, str]) -> None:

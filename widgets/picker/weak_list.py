@@ -113,6 +113,7 @@ class WeakList(QWidget):
         self._title.setStyleSheet(f"color:{theme.MUTED.name()}")
         self.list = _Rows()
         self.list.setAccessibleName(self.tr("Weak bigrams in this sentence"))
+        self.list.setAccessibleDescription(self.tr("Up and down open the bigram"))
         self.list.empty_text = self.tr("No weak bigram in this sentence.")
         self.list.opened.connect(self._open)
         column = QVBoxLayout(self)

@@ -29,6 +29,7 @@ class WeakPanel(QWidget):
         self.list.hide_title()
         self.source = QComboBox()
         self.source.setAccessibleName(self.tr("Where weak bigrams are looked for"))
+        self.source.setAccessibleDescription(self.tr("In this sentence, in a text, or in the whole set"))
         self.source.addItem(self.tr("In this sentence"))
         self.source.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.source.currentIndexChanged.connect(self.source_picked)
@@ -85,6 +86,7 @@ class WeakPanel(QWidget):
         button.setIcon(theme.icon(icon, theme.MUTED))
         button.setToolTip(tip)
         button.setAccessibleName(tip)
+        button.setText(tip)
         button.setAutoRaise(True)
         button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         return button

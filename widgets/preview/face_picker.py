@@ -56,6 +56,7 @@ class FacePicker(QFrame):
         self.title.setFont(theme.font(bold=True))
         self.faces = QListWidget()
         self.faces.setAccessibleName(self.tr("Faces"))
+        self.faces.setAccessibleDescription(self.tr("Enter shows a face, Del removes it"))
         self.faces.setViewMode(QListView.ViewMode.IconMode)
         self.faces.setMovement(QListView.Movement.Static)
         self.faces.setResizeMode(QListView.ResizeMode.Adjust)

@@ -81,6 +81,7 @@ class FaceView(QWidget):
         self._message.setAccessibleName(self.tr("Why there is no face"))
         self._retry = QPushButton(self.tr("Try again"), self)
         self._retry.setAccessibleName(self.tr("Try to draw the face again"))
+        self._retry.setAccessibleDescription(self.tr("Start the renderer once more"))
         self._retry.clicked.connect(self.retry_wanted)
         column = QVBoxLayout(self)
         column.setContentsMargins(24, 24, 24, 24)

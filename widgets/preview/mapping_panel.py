@@ -140,6 +140,7 @@ class MappingPanel(QWidget):
         self.revert.clicked.connect(self.revert_wanted)
         self.poses = QListWidget()
         self.poses.setAccessibleName(self.tr("Poses of the face"))
+        self.poses.setAccessibleDescription(self.tr("Up and down pick the pose whose mix is shown"))
         self.poses.setFixedWidth(_LIST_WIDTH)
         self.poses.setIconSize(QSize(14, 14))
         self.poses.setUniformItemSizes(True)

@@ -46,9 +46,11 @@ class _ShapeRow(Row):
         self.slider.show_amount(shape, amount)
         self.amount.show_value(amount)
         self.amount.setAccessibleName(self.tr("Amount of {0}, as a number").format(shape))
+        self.amount.setAccessibleDescription(self.tr("Less than 0 too, and more than the bar shows"))
         text = self.tr("Leave {0} out").format(shape)
         self.remove.setToolTip(text)
         self.remove.setAccessibleName(text)
+        self.remove.setText(text)
         for field in (self.slider, self.amount, self.remove):
             field.setEnabled(editable)
 

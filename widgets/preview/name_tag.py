@@ -73,6 +73,8 @@ class NameTag(QWidget):
         self.name.setToolTip("\n".join(filter(None, (tag.name, tag.note, self.tr("Click to choose another face")))))
         self.cut.setAccessibleName(self.tr("Cut {0} open").format(tag.name))
         self.away.setAccessibleName(self.tr("Remove {0}").format(tag.name))
+        for button in (self.cut, self.away):
+            button.setText(button.accessibleName())
         self.away.setToolTip(self.tr("Remove {0} from the picture").format(tag.name))
         self.adjustSize()
 

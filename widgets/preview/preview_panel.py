@@ -92,6 +92,7 @@ class PreviewPanel(QWidget):
         button.setAutoRaise(True)
         button.setFixedSize(_BUTTON, _BUTTON)
         button.setAccessibleName(name)
+        button.setText(name)
         button.setToolTip(name)
         button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         return button

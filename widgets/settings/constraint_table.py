@@ -29,7 +29,9 @@ class _ConstraintRow(Row):
         self.line.addWidget(self.limit)
         self.line.addWidget(self.remove)
         self.a.setAccessibleName(self.tr("First pose"))
+        self.a.setAccessibleDescription(self.tr("One of the two poses that clash"))
         self.b.setAccessibleName(self.tr("Second pose"))
+        self.b.setAccessibleDescription(self.tr("The other of the two poses that clash"))
         self.limit.setAccessibleName(self.tr("Largest sum of both weights"))
         self.limit.setToolTip(self.tr("Largest sum of both weights, 0 to 2; the pose of lower priority gives way"))
         for box in (self.a, self.b):
@@ -43,6 +45,7 @@ class _ConstraintRow(Row):
         text = self.tr("Remove the constraint of %1 and %2").replace("%1", constraint.a).replace("%2", constraint.b)
         self.remove.setToolTip(text)
         self.remove.setAccessibleName(text)
+        self.remove.setText(text)
 
     def constraint(self) -> Constraint:
         return Constraint(self.a.currentText(), self.b.currentText(), self.limit.exact)

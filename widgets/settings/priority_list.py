@@ -168,6 +168,7 @@ class PriorityList(QWidget):
         button.setIcon(theme.icon(icon))
         button.setToolTip(name)
         button.setAccessibleName(name)
+        button.setText(name)
         button.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         button.clicked.connect(lambda: self._shift(step))
         return button

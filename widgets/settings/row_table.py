@@ -78,6 +78,7 @@ class RowTable(QWidget, Generic[R]):
         self.add.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         self.add.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.add.setAccessibleName(add_text)
+        self.add.setToolTip(add_text)
         self.add.clicked.connect(self.add_wanted)
         self._column = QVBoxLayout(self)
         self._column.setContentsMargins(0, 0, 0, 0)

@@ -107,6 +107,7 @@ class SettingsPanel(QWidget):
             (self.tr("Spline"), self.spline),
             (self.tr("Speed limit"), self.speed_limit),
         )
+        self.preset.setAccessibleDescription(self.tr("Settings of the pipeline that belong together"))
         self._column.addWidget(self._note)
         self._heading(self.tr("Smoothing"))
         self._form((self.tr("All poses"), self.window_width))

@@ -26,7 +26,9 @@ class _WindowRow(Row):
         self.line.addWidget(self.width_box)
         self.line.addWidget(self.remove)
         self.pose.setAccessibleName(self.tr("Pose with its own window"))
+        self.pose.setAccessibleDescription(self.tr("The pose that is smoothed over another time"))
         self.width_box.setAccessibleName(self.tr("Smoothing window of this pose"))
+        self.width_box.setAccessibleDescription(self.tr("Seconds between peaks that are joined"))
         self.pose.activated.connect(lambda _: self._tell())
         self.width_box.valueChanged.connect(lambda _: self._tell())
 
@@ -36,6 +38,7 @@ class _WindowRow(Row):
         text = self.tr("%1 takes the window of all poses again").replace("%1", pose)
         self.remove.setToolTip(text)
         self.remove.setAccessibleName(text)
+        self.remove.setText(text)
 
     def _tell(self) -> None:
         self.changed.emit(self.tr("Smoothing window of %1").replace("%1", self.pose.currentText()))

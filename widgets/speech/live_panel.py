@@ -39,6 +39,7 @@ class LivePanel(QWidget):
         self._reason = ""
         self.devices = QComboBox()
         self.devices.setAccessibleName(self.tr("Microphone"))
+        self.devices.setAccessibleDescription(self.tr("Which microphone is listened to"))
         self.devices.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.start = QPushButton(self.tr("Listen"))
         self.start.setToolTip(self.tr("Let the face say what the microphone hears"))

@@ -76,6 +76,7 @@ class RecordingPanel(QWidget):
             self.tr("What is said in the recording. Type it, drop a .txt, or recognise it.")
         )
         self.transcript.setAccessibleName(self.tr("Transcript"))
+        self.transcript.setAccessibleDescription(self.tr("What the recording says, as text"))
         self.transcript.setMinimumHeight(64)
         self.transcript.textChanged.connect(self._text_changed)
         self.transcript.finished.connect(self._align)

@@ -11,8 +11,10 @@ from hypothesis import strategies as st
 from app import resources
 from core_pipeline.faces import face_folder
 from core_pipeline.faces.face import Camera
+from core_pipeline.faces.framing import head_camera
 from core_pipeline.faces.looks import ANGLES
 from core_pipeline.faces.view import View, places
+from tests.helpers import rigs
 from tests.helpers.ball import ball
 
 HOME = Camera(target=(0.0, 0.2, 0.1), distance=7.0, yaw=10.0, pitch=-5.0, fov=22.0)
@@ -169,6 +171,14 @@ def test_and_it_is_as_large_as_it_can_be(size):
     face = BUSTS[1.0]
     view = View.on(face).fitted(size)
     assert max(reach(view, face.positions[face.positions[:, 1] > -1.5], size)) > 0.8
+
+
+@pytest.mark.parametrize("size", [(300, 300), (120, 400), (500, 200)])
+def test_the_crown_of_a_rig_is_seen_though_only_its_jaw_moves(size):
+    face = rigs.head(("jawOpen", "mouthPucker"))
+    face = replace(face, camera=head_camera(face))
+    left, right, up, _ = reach(View.on(face).fitted(size), face.positions, size)
+    assert max(left, right, up) < 0.98
 
 
 @given(SIZES, st.floats(-5, 5))

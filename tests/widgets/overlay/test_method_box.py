@@ -38,8 +38,12 @@ def test_differences_are_a_number_and_a_table_worst_first(box, qtbot):
     assert box.table.isVisible()
     cells = [[box.table.item(i, k).text() for k in range(3)] for i in range(2)]
     assert cells == [["W", "0.040", "+0.200"], ["open", "0.030", "-0.100"]]
+    qtbot.keyClick(box.table, Qt.Key.Key_Escape)
+    assert not box.popup.isVisible()
+    qtbot.mouseClick(box.details, Qt.MouseButton.LeftButton)
+    assert box.popup.isVisible()
     box.set_differences(None)
-    assert not box.table.isVisible()
+    assert not box.popup.isVisible()
 
 
 def test_while_something_is_learned_nothing_else_can_be_chosen(box):
