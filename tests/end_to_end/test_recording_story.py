@@ -182,6 +182,7 @@ def test_a_recording_replayed_as_if_live_moves_the_face_and_becomes_an_utterance
         drop(editor, wav)
     panel, live = editor.window.live_panel, editor.wiring.speech_in.live
     editor.window.actions_.live.trigger()
+    assert panel.devices.count() > 0  # the microphones, or that there is none
     shown: list[float] = []
     editor.preview.weights_changed.connect(lambda weights: shown.append(float(weights.max())))
     with qtbot.waitSignal(live.ended, timeout=60_000) as over:
