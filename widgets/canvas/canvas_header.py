@@ -34,8 +34,8 @@ _SPARE = ("duplicate", "slide", "reverse", "mirror", "copy", "paste")
 class CanvasHeader(QWidget):
     """“F – Ah  as in “fat” · used 2× in this sentence · draft”, two switches, and buttons for what keys do too.
 
-    Where there is no room some buttons go first, then words, the use, the status, the example; the tooltip
-    always has the whole line.
+    Where there is no room some buttons go first, then words, the use, the status, the example; the tooltip always
+    has the whole line.
     """
 
     snap_toggled = Signal(bool)
