@@ -15,6 +15,8 @@ _GAP = "\u2002·\u2002"
 
 #: Pixels from which on every button is shown.
 ROOMY = 480
+#: Pixels at least.
+NARROWEST = 230
 #: Letters of a note that stand in the line.
 NOTE = 40
 
@@ -176,6 +178,10 @@ class CanvasHeader(QWidget):
         for action, _, tip in _ACTIONS:
             key = f" ({keys[action]})" if keys.get(action) else ""
             self._actions[action].setToolTip(self.tr(tip) + key)
+
+    def minimumSizeHint(self) -> QSize:
+        """Room for the bigram and three buttons: the spare ones go where it is less than roomy."""
+        return QSize(NARROWEST, super().minimumSizeHint().height())
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Fits the line."""
