@@ -12,7 +12,7 @@ from core_pipeline.files.labels import textgrid
 from core_pipeline.speech.utterance import Utterance
 from core_pipeline.weights import bake as bake_weights
 
-from .speech_options import source_of, with_map
+from .speech_source import source_of, with_map
 from .steps import hear, load_curves, load_model, save_sound, tell_missing
 
 #: Nine hours at 30 frames a second.

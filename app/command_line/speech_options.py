@@ -6,13 +6,7 @@ import argparse
 from collections.abc import Callable
 from pathlib import Path
 
-from core_pipeline.curve_set import CurveSet
-from core_pipeline.errors import UserError
-from core_pipeline.files.json_text import shown
-from core_pipeline.phonemes import SILENCE, TABLE_1
 from core_pipeline.settings import PRESETS
-from core_pipeline.speech.espeak import ALL_VOICES, PITCH
-from core_pipeline.speech.intake import Source
 
 Command = Callable[[str, str, str], argparse.ArgumentParser]
 
@@ -28,7 +22,7 @@ def add_to_bake(bake: argparse.ArgumentParser) -> None:
     )
     bake.add_argument("--labels-out", type=Path, metavar="FILE", help="phones and words, .TextGrid or .json")
     bake.add_argument("--rate", type=int, default=175, metavar="N", help="words per minute of the voice (default 175)")
-    bake.add_argument("--pitch", type=int, default=PITCH, metavar="N", help="pitch of the voice, 0 to 99")
+    bake.add_argument("--pitch", type=int, default=50, metavar="N", help="pitch of the voice, 0 to 99 (default 50)")
     bake.add_argument("--phoneme-map", metavar="MAP", help="smartbody, sapi, cereproc, table-1, or a .json file")
 
 
@@ -51,47 +45,3 @@ def add(command: Command) -> None:
     batch.add_argument("--format", choices=("json", "csv"), default="json", help="of the weights (default json)")
     batch.add_argument("--textgrids", action="store_true", help="write a TextGrid beside each file of weights")
     batch.add_argument("--again", action="store_true", help="bake everything anew, finished lines too")
-
-
-def source_of(options: argparse.Namespace) -> Source:
-    """What `bake` was asked to say. UserError for an assignment that is none."""
-    return Source(
-        text=options.text or "",
-        audio=options.audio,
-        transcript=options.transcript or "",
-        labels=options.labels,
-        voice=_voice(options.voice),
-        rate=options.rate,
-        pitch=options.pitch,
-        label_rate=options.label_rate,
-        assigned=dict(map(_assignment, options.assign)),
-    )
-
-
-def with_map(curve_set: CurveSet, name: str | None) -> CurveSet:
-    """The set with another phoneme map: one of ours by name, or a file. UserError when they do not fit."""
-    if name is None:
-        return curve_set
-    from .. import resources
-    from ..phoneme_maps import applied
-
-    return applied(curve_set, resources.phoneme_map(name))
-
-
-def _voice(name: str) -> str:
-    """A voice's name, or what people call it."""
-    short = {"british": "gmw/en", "american": "en-us", "mandarin": "sit/cmn"}
-    voice = short.get(name.lower(), name)
-    if voice not in ALL_VOICES:
-        raise UserError(f"There is no voice “{shown(name)}”: choose one of {', '.join([*ALL_VOICES, *short])}.")
-    return voice
-
-
-def _assignment(text: str) -> tuple[str, str]:
-    name, sign, phones = text.rpartition("=")
-    if not sign or not name:
-        raise UserError(f"--assign “{shown(text)}” should be NAME=PHONE, such as QX=b.")
-    for phone in phones.split():
-        if phone not in TABLE_1 and phone != SILENCE:
-            raise UserError(f"--assign “{shown(text)}”: {shown(phone)} is no phone; choose one of {' '.join(TABLE_1)}.")
-    return name, phones

@@ -15,7 +15,7 @@ from .method import Progress, class_of, no_progress
 from .segments import NOTHING_SEEN, SAMPLES, segments_of
 
 #: More AnimPhos than this would make the tables too large.
-MOST = 4000
+MOST = 3000
 
 
 @dataclass(frozen=True)

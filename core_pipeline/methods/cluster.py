@@ -9,15 +9,22 @@ from scipy.cluster.vq import kmeans, vq
 Array = NDArray[np.float64]
 Ints = NDArray[np.intp]
 
+#: Points that centres are found from; of more, every second, third, … (scipy takes points × clusters numbers).
+MOST = 12_000
+#: Points that are given to their clusters at once.
+BLOCK = 4096
+
 
 def k_means(points: Array, k: int, seed: int = 0) -> Ints:
     """(n,) the cluster of each point (n, d); at most k of them, numbered from 0, none empty.
 
     Lloyd's iterations by scipy, from starts drawn as k-means++ draws them (Arthur and Vassilvitskii, 2007).
     """
-    starts = _spread_starts(points, min(k, len(points)), np.random.default_rng(seed))
-    book, _ = kmeans(points, starts)
-    return _renumbered(vq(points, book)[0].astype(np.intp))
+    some = points[:: -(-len(points) // MOST)]
+    starts = _spread_starts(some, min(k, len(some)), np.random.default_rng(seed))
+    book, _ = kmeans(some, starts)
+    labels = [vq(points[i : i + BLOCK], book)[0] for i in range(0, len(points), BLOCK)]
+    return _renumbered(np.concatenate(labels).astype(np.intp))
 
 
 def _spread_starts(points: Array, k: int, rng: np.random.Generator) -> Array:

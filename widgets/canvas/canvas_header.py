@@ -13,9 +13,9 @@ from .. import theme
 
 _GAP = "\u2002·\u2002"
 
-#: Pixels from which on every button is shown.
-ROOMY = 480
-#: Pixels at least.
+#: Pixels that the text keeps; buttons that would take them are left out.
+TEXT = 210
+#: Pixels of the whole at least.
 NARROWEST = 230
 #: Letters of a note that stand in the line.
 NOTE = 40
@@ -29,7 +29,8 @@ _ACTIONS = (
     ("duplicate", "content-duplicate", QT_TRANSLATE_NOOP("CanvasHeader", "Duplicate from a similar bigram")),
     ("slide", "compare-horizontal", QT_TRANSLATE_NOOP("CanvasHeader", "Slide to another version")),
 )
-_SPARE = ("reverse", "mirror", "copy", "paste", "duplicate", "slide")
+#: Those that go where there is no room, the last one first: keys do the same.
+_SPARE = ("duplicate", "slide", "reverse", "mirror", "copy", "paste")
 
 
 class CanvasHeader(QWidget):
@@ -186,8 +187,11 @@ class CanvasHeader(QWidget):
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Fits the line."""
         super().resizeEvent(event)
-        for action in _SPARE:
-            self._actions[action].setVisible(event.size().width() >= ROOMY)
+        button = self._snap.sizeHint().width() + self._layout.spacing()
+        always = len(self.buttons) - len(_SPARE)
+        left = event.size().width() - self._title.sizeHint().width() - TEXT - always * button
+        for place, action in enumerate(_SPARE):
+            self._actions[action].setVisible(left >= (place + 1) * button)
         self._show()
 
     def _parts(self, *, short: bool = False) -> list[tuple[str, str]]:

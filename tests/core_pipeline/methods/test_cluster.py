@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from core_pipeline.methods import cluster
 from core_pipeline.methods.cluster import affinity_propagation, k_means, means, merged
 
 
@@ -19,6 +20,13 @@ def test_three_heaps_are_found(find):
     labels = find(points)
     assert len({(a, b) for a, b in zip(labels.tolist(), truth.tolist(), strict=True)}) == 3
     assert sorted(set(labels.tolist())) == [0, 1, 2]
+
+
+def test_a_long_list_is_clustered_by_a_part_of_it(monkeypatch):
+    monkeypatch.setattr(cluster, "MOST", 20)
+    monkeypatch.setattr(cluster, "BLOCK", 7)
+    points, truth = blobs()
+    assert len({(a, b) for a, b in zip(k_means(points, 3).tolist(), truth.tolist(), strict=True)}) == 3
 
 
 def test_small_heaps_are_joined_to_the_nearest():

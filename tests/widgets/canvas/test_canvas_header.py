@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt
 from core_pipeline.curves import Curve
 from tests.helpers.curve_hand import FV, LEFT
 from widgets import theme
-from widgets.canvas.canvas_header import ROOMY, CanvasHeader
+from widgets.canvas.canvas_header import CanvasHeader
 
 
 @pytest.fixture
@@ -60,11 +60,16 @@ def test_it_gives_up_words_then_the_use_then_the_status_where_it_is_narrow(heade
     assert all(now in stages for now in shown)
 
 
-def test_where_there_is_no_room_only_the_switches_and_frame_all_remain(header):
-    header.resize(ROOMY - 1, header.height())
-    assert sum(button.isVisible() for button in header.buttons) == 3
-    header.resize(ROOMY, header.height())
-    assert all(button.isVisible() for button in header.buttons)
+def test_buttons_that_keys_replace_make_room_for_the_text(header):
+    shown = []
+    for width in range(900, 200, -10):
+        header.resize(width, header.height())
+        shown.append(sum(button.isVisible() for button in header.buttons))
+        if shown[-1] > 3:
+            assert "as in" in header.detail, width
+    assert shown[0] == len(header.buttons) == 9
+    assert shown[-1] == 3
+    assert shown == sorted(shown, reverse=True)
 
 
 def test_every_button_has_a_name_and_tells_its_key_in_the_present_map(joined):
