@@ -15,6 +15,8 @@ _GAP = "\u2002·\u2002"
 
 #: Pixels that the text keeps; buttons that would take them are left out.
 TEXT = 210
+#: Pixels of the whole at least.
+NARROWEST = 230
 #: Letters of a note that stand in the line.
 NOTE = 40
 
@@ -177,6 +179,10 @@ class CanvasHeader(QWidget):
         for action, _, tip in _ACTIONS:
             key = f" ({keys[action]})" if keys.get(action) else ""
             self._actions[action].setToolTip(self.tr(tip) + key)
+
+    def minimumSizeHint(self) -> QSize:
+        """Room for the bigram and three buttons: the spare ones go where it is less than roomy."""
+        return QSize(NARROWEST, super().minimumSizeHint().height())
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Fits the line."""
