@@ -40,12 +40,15 @@ _ASSUMED = 60.0
 _DAY = 86_400.0
 
 
-def load(path: Path) -> Capture:
-    """The capture in a file; UserError names file, line and cure."""
-    return parse(read_bytes(path, MAX_BYTES, "capture"), str(path))
+def load(path: Path, *, points: bool = False) -> Capture:
+    """The capture in a file; UserError names file, line and cure.
+
+    points  the columns are places in any unit, not shapes from 0 to 1
+    """
+    return parse(read_bytes(path, MAX_BYTES, "capture"), str(path), points=points)
 
 
-def parse(data: bytes, place: str) -> Capture:
+def parse(data: bytes, place: str, *, points: bool = False) -> Capture:
     """As `load`, from bytes; `place` names the file in messages."""
     header, rows = _table(data, place)
     plain = [re.sub(r"[\s_\-()]", "", name).casefold() for name in header]
@@ -66,7 +69,7 @@ def parse(data: bytes, place: str) -> Capture:
     times = _times([row[clock] for _, row in rows], plain[clock], [line for line, _ in rows], notes, place)
     values[np.abs(values) > 1e6] = np.nan
     top = np.nanmax(np.abs(values)) if np.isfinite(values).any() else 0.0
-    if 1.5 < top <= 110:
+    if 1.5 < top <= 110 and not points:
         values /= 100.0
         notes.append("The values are per cent; they were divided by 100.")
     order = np.argsort(times, kind="stable")

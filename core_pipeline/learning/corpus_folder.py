@@ -3,6 +3,7 @@
     take1.csv    Live Link Face or ARKit, or weights over poses    take1.TextGrid        labels
     take2.json   weights, as `bake` writes them                     take2.schedule.json   labels
     take3.glb    an animated face                                   take3.wav take3.txt   to be aligned
+    take4.csv    captured points, with a key_shapes.csv beside      take4.phn             labels
 
 What cannot be used is left out and said; a corpus of which nothing can be used is refused.
 """
@@ -24,15 +25,16 @@ from ..files.labels.read import read as read_labels
 from ..methods.method import Progress, no_progress
 from ..schedule import Schedule
 from ..speech.labels import utterance_of
-from . import capture_csv, gltf_animation
+from . import capture_csv, gltf_animation, key_shapes
 from .corpus import Clip, Corpus
 from .cross_map import clip_of
+from .key_shapes import KeyShapes
 
 #: Recording, transcript → schedule; None where nothing can align.
 Aligner = Callable[[Path, str], Schedule]
 
 MAX_FILES = 20_000
-_SOUNDS = (".wav", ".flac", ".ogg", ".mp3", ".m4a")
+_SOUNDS = (".wav", ".flac", ".ogg", ".mp3", ".m4a", ".mov", ".mp4")
 _LABELS = (".textgrid", ".phn", ".mlf", ".rec", ".phones")
 _SCHEDULE = ".schedule.json"
 _MESHES = (".glb", ".gltf")
@@ -75,12 +77,23 @@ class Reader:
         schedule, notes = self._schedule(animation, files)
         if animation.suffix.lower() in _MESHES:
             clip = clip_of(animation.name, gltf_animation.load(animation), schedule, self._poses, self.presets)
+        elif (shapes := self._key_shapes(animation)) is not None:
+            capture = capture_csv.load(animation, points=True)
+            clip = shapes.clip_of(animation.name, capture, schedule, self._poses)
         elif animation.suffix.lower() == ".csv" and capture_csv.is_capture(capture_csv.header_of(animation)):
             clip = clip_of(animation.name, capture_csv.load(animation), schedule, self._poses, self.presets)
         else:
             clip = Clip.of(animation.name, schedule, weights_read.load(animation))
             clip = with_poses(clip, self._poses)
         return trimmed(replace(clip, notes=(*clip.notes, *notes)))
+
+    def _key_shapes(self, animation: Path) -> KeyShapes | None:
+        """Those in the animation's folder, when it has their columns."""
+        path = animation.with_name(key_shapes.NAME)
+        if animation.suffix.lower() != ".csv" or not path.is_file():
+            return None
+        shapes = key_shapes.load(path)
+        return shapes if shapes.fits(capture_csv.header_of(animation)) else None
 
     @property
     def _poses(self) -> tuple[str, ...]:
@@ -127,11 +140,18 @@ def _animations(folder: Path) -> tuple[list[Path], list[Path]]:
         if path.suffix.lower() in (".csv", ".json", *_MESHES)
         and not path.name.lower().endswith((_SCHEDULE, ".lipstitch.json"))
         and not path.stem.lower().endswith(_NO_TAKES)
-        and path.name.lower() not in ("take.json", "frame_log.csv")
+        and path.name.lower() not in ("take.json", "frame_log.csv", key_shapes.NAME)
     ]
+    better = {str(path).lower().replace("_cal.csv", ".csv") for path in found if not _is_raw(path)}
+    found = [path for path in found if not _is_raw(path) or str(path).lower().replace("_raw.csv", ".csv") not in better]
     if not found:
         raise UserError(f"{folder} holds no animation: .csv, .json, .glb or .gltf, each with its labels beside it.")
     return found, files
+
+
+def _is_raw(path: Path) -> bool:
+    """Live Link Face writes a take twice: as seen, and calibrated, which is the better one."""
+    return path.stem.lower().endswith("_raw")
 
 
 def _are_labels(path: Path) -> bool:

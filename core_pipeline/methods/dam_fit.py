@@ -76,6 +76,8 @@ def _fit(corpus: Corpus, options: DamOptions, progress: Progress) -> Dam:
     of_phone = np.array([mode[segments.phone == p].max(initial=0) + 1 for p in range(len(phones))])
     first = np.concatenate(([0], of_phone.cumsum()))
     reach, target = _frames(corpus, segments, first, mode, options.degree)
+    if not len(target):
+        raise UserError(NOTHING_SEEN)
     shared = Shared.of(reach, int(first[-1]), normalised=options.degree == 0)
     ridge = options.ridge if options.ridge is not None else _ridge(segments.phone.size)
     fits = []

@@ -70,6 +70,63 @@ def test_everything_that_belongs_together_is_found(folder):
     assert learn_bigrams(corpus).found
 
 
+def test_a_take_that_is_there_raw_and_calibrated_is_taken_once(folder):
+    take = folder / "MySlate_1_iPhone.csv"
+    (folder / "MySlate_1_iPhone_raw.csv").write_bytes(take.read_bytes())
+    (folder / "MySlate_1_iPhone_neutral.csv").write_bytes(take.read_bytes())
+    names = [clip.name for clip in Reader(english(), PRESETS).read(folder)]
+    assert [name for name in names if name.startswith("MySlate")] == ["MySlate_1_iPhone.csv"]
+
+
+class TestKeyShapes:
+    """Appendix A: markers in millimetres, and the shapes an artist picked from them."""
+
+    COLUMNS = "lip_x,lip_y,jaw_y,jaw_z"
+
+    @pytest.fixture
+    def markers(self, tmp_path) -> Path:
+        clip = baked()[0]
+        rng = np.random.default_rng(3)
+        neutral = rng.uniform(20, 90, 4)
+        shapes = {pose: neutral + rng.normal(0, 6, 4) for pose in ("open", "W", "wide")}
+        basis = np.array([shapes[pose] - neutral for pose in shapes])
+        weights = clip.weights.frames[:, [english().poses.index(pose) for pose in shapes]]
+        points = neutral + weights @ basis
+        rows = [f"neutral,{','.join(f'{v:.6f}' for v in neutral)}"]
+        rows += [f"{pose},{','.join(f'{v:.6f}' for v in shape)}" for pose, shape in shapes.items()]
+        (tmp_path / "key_shapes.csv").write_text("\n".join([f"pose,{self.COLUMNS}", *rows]), "utf-8")
+        lines = [f"{i / 60:.6f},{','.join(f'{v:.6f}' for v in row)}" for i, row in enumerate(points)]
+        (tmp_path / "take.csv").write_text("\n".join([f"time,{self.COLUMNS}", *lines]), "utf-8")
+        schedule_json.save(clip.schedule, tmp_path / "take.schedule.json")
+        return tmp_path
+
+    def test_points_become_poses(self, markers):
+        corpus = Reader(english()).read(markers)
+        for pose in ("open", "W", "wide"):
+            p = english().poses.index(pose)
+            made, truth = corpus.clips[0].weights.frames[:, p], baked()[0].weights.frames[:, p]
+            assert made == pytest.approx(truth, abs=2e-3)
+        assert corpus.clips[0].residual < 0.01
+        assert "tBack" in corpus.blind
+        assert "has no key shape" in corpus.notes[0]
+
+    @pytest.mark.parametrize(
+        ("old", "new", "sentence"),
+        [
+            ("neutral,", "rest,", "has no row neutral"),
+            ("open,", "open,1,", "row 3"),
+            ("open,", "open,x", "row 3"),
+            ("lip_y", "lip_x", "names a column twice"),
+            ("W,", "open,", "row 4"),
+        ],
+    )
+    def test_what_is_wrong_with_them_is_said(self, markers, old, new, sentence):
+        path = markers / "key_shapes.csv"
+        path.write_text(path.read_text("utf-8").replace(old, new, 1), "utf-8")
+        with pytest.raises(UserError, match=sentence):
+            Reader(english()).read(markers)
+
+
 def test_what_cannot_be_used_is_left_out_and_said(folder):
     (folder / "say1.TextGrid").unlink()
     (folder / "say0.json").write_text("{")
