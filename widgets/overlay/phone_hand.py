@@ -78,7 +78,7 @@ class PhoneHand(StageOverlay):
 
     def edge_at(self, at: QPoint) -> int | None:
         """The inner boundary under the mouse, in the rows of phones; None elsewhere."""
-        if self._stages is None or not self._known or self._zone(at) not in ("phone", "start"):
+        if self._stages is None or not self._known or self._zone(at) not in ("phone", "start", "word"):
             return None
         edges = np.asarray(self.axis.px(self._stages.schedule.times[1:-1]))
         if not edges.size or at.x() < self.axis.x0 - GRIP:

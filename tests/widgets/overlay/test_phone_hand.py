@@ -42,8 +42,9 @@ def heard(signal):
     return said
 
 
-@pytest.mark.parametrize("row", [1, 2])
+@pytest.mark.parametrize("row", [1, 2, 3])
 def test_a_boundary_is_dragged_and_dropped(overlay, row):
+    overlay.set_words([("appy", 0.1, 0.5)])
     dragged, dropped, scrubbed = heard(overlay.edge_dragged), heard(overlay.edge_dropped), heard(overlay.scrubbed)
     start = edge(overlay, 2, row)
     mouse.drag(overlay, start, start + QPointF(30, 0), steps=4)
