@@ -18,7 +18,7 @@ from core_pipeline.pipeline import Stages
 from core_pipeline.weights import Weights, bake
 from widgets.overlay.method_box import NONE
 
-from ..method_learner import MethodLearner, Wish
+from ..workers.method_learner import MethodLearner, Wish
 from .company import Company
 from .parts import Parts
 
