@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
-from PySide6.QtGui import QUndoCommand, QUndoStack
+from PySide6.QtGui import QUndoStack
 
 from core_pipeline.curve_set import Bigram, CurveSet
 from core_pipeline.curves import Curve
@@ -20,7 +20,7 @@ from core_pipeline.files.curve_set_merge import decided
 from core_pipeline.phonemes import Pair
 from core_pipeline.settings import Settings
 
-from .commands import ChangeSet, ChangeSettings, EditBigram, EditBigrams
+from .commands import Change, EditBigram
 
 NUDGE = "Nudge keys"
 
@@ -105,13 +105,13 @@ class Document(QObject):
         if bigrams:
             self.great_change.emit(label)
             before = {pair: self.curve_set.own.get(pair) for pair in bigrams}
-            self.undo_stack.push(EditBigrams(self._put_bigrams, before, dict(bigrams), label))
+            self.undo_stack.push(Change(self._put_bigrams, before, dict(bigrams), label))
 
     def change_settings(self, settings: Settings, label: str) -> None:
         """Use other settings; UserError when the document cannot be edited."""
         self._check_editable()
         if settings != self.curve_set.effective_settings:
-            self.undo_stack.push(ChangeSettings(self._put_settings, self.curve_set.settings, settings, label))
+            self.undo_stack.push(Change(self._put_settings, self.curve_set.settings, settings, label))
 
     def revert(self, pair: Pair, label: str) -> None:
         """One bigram as the set below has it; nothing where it is so already. UserError when there is none below."""
@@ -125,15 +125,13 @@ class Document(QObject):
         """The whole set at once, as one undo step; UserError when the document cannot be edited."""
         self._check_editable()
         self.great_change.emit(label)
-        self.undo_stack.push(ChangeSet(self._put_set, self.curve_set, after, label))
+        self.undo_stack.push(Change(self._put_set, self.curve_set, after, label))
 
-    def push_aside(self, command: QUndoCommand) -> None:
-        """An undo step that changes something else than this set, which stays as clean as it is.
-
-        The class of the command says so: `of_set = False`.
-        """
+    def push_aside(self, change: Change) -> None:
+        """An undo step that changes something else than this set, which stays as clean as it is."""
+        change.of_set = False
         self._last = None
-        self.undo_stack.push(command)
+        self.undo_stack.push(change)
 
     def _extend_nudge(self, pair: Pair, after: Bigram) -> bool:
         """Several presses of an arrow key are one step: give the newest command a new end."""

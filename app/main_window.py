@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import QByteArray, QEvent, Qt, Signal
+from PySide6.QtCore import QByteArray, QEvent, Qt, QTimer, Signal
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeyEvent, QPalette, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QDockWidget,
@@ -183,7 +183,8 @@ class MainWindow(QMainWindow):
         poses = self.pose_list.sizeHint().width()
         room = self._canvases.width() - poses
         self.beside.setVisible(on)
-        self._canvases.setSizes([poses, room // 2, room // 2] if on else [poses, room, 0])
+        sizes = [poses, room // 2, room // 2] if on else [poses, room, 0]
+        QTimer.singleShot(0, self, lambda: self._canvases.setSizes(sizes))  # once the rows above are narrow
 
     def _toolbar(self) -> QToolBar:
         bar = QToolBar(self.tr("Sentence"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping as ReadOnly
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QObject
@@ -18,7 +19,7 @@ from core_pipeline.poses import shown_alone
 from widgets.preview.mapping_panel import REFERENCE
 
 from .. import resources
-from ..commands import ChangeMapping, MappingOfFace
+from ..commands import Change, MappingOfFace
 from ..reference import Reference
 from .parts import Parts
 
@@ -51,7 +52,7 @@ class Mapping(QObject):
         self._begun_with = self._saved_with = ""  # the preset they come from
         self._unsaved: dict[Path, tuple[str, Mixes]] = {}
         self._saved_of: dict[Path, Mixes] = {}  # of every face that was opened
-        self._slide: ChangeMapping | None = None  # the newest step, while its slide lasts
+        self._slide: Change | None = None  # the newest step, while its slide lasts
         self._by_hand = False  # a change of the panel's own is being taken in
         self._reference = Reference(self)
         self._connect()
@@ -206,7 +207,8 @@ class Mapping(QObject):
 
     def _push(self, preset: str, mixes: ReadOnly[str, Mix], label: str) -> None:
         before = MappingOfFace(self._begun_with, _copied(self._mixes))
-        step = ChangeMapping(self._put, self._path, before, MappingOfFace(preset, _copied(mixes)), label)
+        put = partial(self._put, self._path)
+        step = Change(put, before, MappingOfFace(preset, _copied(mixes)), label)
         self._document.push_aside(step)
         self._slide = step if self._by_hand else None
 

@@ -12,7 +12,7 @@ from core_pipeline.pipeline import Stages
 from core_pipeline.speech import edit
 from core_pipeline.speech.utterance import Utterance
 
-from ..commands import EditUtterance
+from ..commands import Change
 from .parts import Parts
 from .sentence import Sentence
 
@@ -97,7 +97,7 @@ class Phones(QObject):
         self._push(before, after, label)
 
     def _push(self, before: Utterance, after: Utterance, label: str) -> None:
-        self._document.push_aside(EditUtterance(self._put, before, after, label))
+        self._document.push_aside(Change(self._put, before, after, label))
 
     def _put(self, utterance: Utterance) -> None:
         """Say this; playing goes on when it is the same sound."""

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QFileDialog, QMessageBox
 
 from core_pipeline.errors import UserError
-from core_pipeline.files import schedule_json, utterance_json
-from core_pipeline.files.labels import textgrid
 from core_pipeline.files.labels.read import ENDINGS
 from core_pipeline.phonemes import SILENCE
 from core_pipeline.schedule import Schedule
@@ -20,10 +16,10 @@ from core_pipeline.speech.espeak import VOICES
 from core_pipeline.speech.intake import transcript_of
 from core_pipeline.speech.recognise import Heard
 from core_pipeline.speech.utterance import Audio, Utterance
-from core_pipeline.speech.wav import write_wav
 from widgets.speech.assign_dialog import AssignDialog
 
 from ..hearing import Hearing, Labelled, Opened
+from ..spoken_files import from_zero, is_spoken, recording_of, save_spoken, saved_beside
 from .parts import Parts
 from .phones import Phones
 from .sentence import Sentence
@@ -54,7 +50,7 @@ class Recording(QObject):
         self.path: Path | None = None
         self.audio: Audio | None = None
         self._unsaved: Utterance | None = None  # edited by hand, and not kept
-        self._last: Labelled | None = None
+        self._next: Path | None = None  # the file whose phones belong to the recording that is being read
         self.hearing = Hearing(parts.speaker, self)
         hearing, panel = self.hearing, self._panel
         hearing.opened.connect(self._opened)
@@ -63,7 +59,7 @@ class Recording(QObject):
         hearing.labelled.connect(self._labelled)
         hearing.progressed.connect(panel.set_progress)
         hearing.busy_changed.connect(panel.set_busy)
-        hearing.failed.connect(lambda sentence: panel.set_message(sentence, "error"))
+        hearing.failed.connect(self._failed)
         panel.open_wanted.connect(self.ask_open)
         panel.labels_wanted.connect(self.ask_labels)
         panel.align_wanted.connect(self.align)
@@ -103,7 +99,7 @@ class Recording(QObject):
             self.open(path)
         elif ending == ".txt" and self.audio is not None:
             self.open_transcript(path)
-        elif ending in ENDINGS or (ending == ".json" and _is_spoken(path)):
+        elif ending in ENDINGS or (ending == ".json" and is_spoken(path)):
             self.open_labels(path)
         else:
             return False
@@ -130,20 +126,24 @@ class Recording(QObject):
         if not self.may_discard():
             return
         self._show()
+        recording = recording_of(path)
+        if recording is not None and recording != self.path:
+            self._next = path  # an utterance of ours: its sound first
+            self.open(recording)
+            return
         curve_set = self._document.curve_set
         known = (*curve_set.phonemes, *curve_set.phoneme_map)
         self.hearing.labels(path, self.audio, self._assigned(), known)
 
     def _opened(self, opened: Opened) -> None:
         self.path, self.audio = opened.path, opened.audio
-        self._last = None
         self._panel.set_recording(opened.path.name, opened.audio.duration)
         self._panel.set_transcript("")
         self._panel.set_message(self.tr("Type what is said and press Align, or let it be recognised."))
         self._window.live_panel.set_can_replay(True)
         self._take(Utterance("", Schedule([SILENCE], [0.0, opened.audio.duration]), opened.audio), play=False)
         beside = opened.path.with_suffix(".txt")
-        saved = saved_beside(opened.path)
+        saved, self._next = self._next or saved_beside(opened.path), None
         if saved.is_file():
             self.hearing.labels(saved, self.audio, {}, ())
         elif beside.is_file():
@@ -172,6 +172,10 @@ class Recording(QObject):
         self.hearing.cancel()
         self._panel.set_message(self.tr("Given up."))
 
+    def _failed(self, sentence: str) -> None:
+        self._next = None
+        self._panel.set_message(sentence, "error")
+
     def _aligned(self, utterance: Utterance) -> None:
         count = sum(phone != SILENCE for phone in utterance.schedule.phones)
         told = self.tr("{0} words, {1} phones.").format(len(utterance.words), count)
@@ -184,14 +188,13 @@ class Recording(QObject):
         self._panel.transcript.setFocus()
 
     def _labelled(self, labelled: Labelled) -> None:
-        self._last = labelled
         utterance = labelled.named.utterance
         told = self.tr("{0}: {1} phones.").format(labelled.labels.kind, len(utterance.schedule))
         self._panel.set_message(" ".join((told, *utterance.notes)))
         if utterance.text:
             self._panel.set_transcript(utterance.text)
         if self.audio is None and utterance.schedule.start != 0:
-            utterance = _from_zero(utterance)
+            utterance = from_zero(utterance)
         self._take(utterance, play=self.audio is not None)
         if labelled.named.unknown:
             self._ask_names(labelled)
@@ -238,31 +241,12 @@ class Recording(QObject):
     def save(self, path: Path, utterance: Utterance) -> bool:
         """Keep phones and words; what has no recording yet gets its sound beside it. Whether it worked."""
 
-        def act() -> None:
-            if path.suffix.lower() == ".textgrid":
-                textgrid.save(path, utterance.schedule, utterance.words)
-            elif path.name.lower().endswith(".utterance.json") or not path.suffix:
-                utterance_json.save(path, utterance, self._sound_beside(path, utterance))
-            else:
-                schedule_json.save(utterance.schedule, path)
-
-        if not self._files.attempt(act):
+        mine = self.path if self.path is not None and utterance.audio is self.audio else None
+        if not self._files.attempt(lambda: save_spoken(path, utterance, mine)):
             return False
         self._unsaved = None
         self._panel.set_message(self.tr("Saved in {0}.").format(path.name))
         return True
-
-    def _sound_beside(self, path: Path, utterance: Utterance) -> str:
-        """The name of the recording's file; a sound that has none is written."""
-        if utterance.audio is None:
-            return ""
-        if self.path is not None and utterance.audio is self.audio:
-            return self.path.name
-        stem = path.name.removesuffix(".utterance.json").removesuffix(".json")
-        sound = path.with_name(f"{stem}.wav")
-        if not sound.exists():
-            write_wav(sound, utterance.audio)
-        return sound.name
 
     def may_discard(self) -> bool:
         """Whether edits of the phones may go: there are none, they were saved, or the user said so."""
@@ -294,29 +278,3 @@ class Recording(QObject):
         dock = self._window.recording_dock
         dock.show()
         dock.raise_()
-
-
-def saved_beside(recording: Path) -> Path:
-    """Where phones and words of a recording are kept: "a.wav" → "a.utterance.json"."""
-    return recording.with_name(f"{recording.stem}.utterance.json")
-
-
-def _is_spoken(path: Path) -> bool:
-    """Whether a .json file is an utterance, a schedule, or labels of MFA, by its first bytes."""
-    try:
-        with path.open("rb") as file:
-            head = file.read(4000)
-    except OSError:
-        return False
-    return b"lipstitch.Utterance." in head or b"lipstitch.Schedule." in head or b'"tiers"' in head
-
-
-def _from_zero(utterance: Utterance) -> Utterance:
-    """What begins later has silence before; what begins before 0 is moved there."""
-    schedule = utterance.schedule
-    if schedule.start > 0:
-        phones, times = [SILENCE, *schedule.phones], np.concatenate([[0.0], schedule.times])
-        return replace(utterance, schedule=Schedule(phones, times))
-    shift = -schedule.start
-    words = tuple(replace(w, start=w.start + shift, end=w.end + shift) for w in utterance.words)
-    return replace(utterance, schedule=Schedule(schedule.phones, schedule.times + shift), words=words)

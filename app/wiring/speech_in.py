@@ -136,6 +136,7 @@ class SpeechIn(QObject):
         panel.stop_wanted.connect(live.stop)
         panel.record_wanted.connect(self._record)
         live.heard.connect(self._heard)
+        self._window.live_dock.visibilityChanged.connect(self._look_for_microphones)
         live.ended.connect(self._ended)
         self._parts.session.stages_changed.connect(lambda _: live.set_curve_set(self._parts.session.curve_set))
 
@@ -144,7 +145,11 @@ class SpeechIn(QObject):
         dock = self._window.live_dock
         dock.show()
         dock.raise_()
-        self._window.live_panel.set_devices(*microphones())
+        self._look_for_microphones(True)
+
+    def _look_for_microphones(self, visible: bool) -> None:
+        if visible and not self.live.running:
+            self._window.live_panel.set_devices(*microphones())
 
     def _listen(self, device: int | None) -> None:
         self._begin()

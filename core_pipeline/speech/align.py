@@ -29,10 +29,10 @@ Progress = Callable[[float], None]
 WINDOW, LAST_WINDOW = 24.0, 30.0
 #: Nobody says more words in a second.
 FASTEST_WORDS = 7.0
-#: Mean score of a frame below which words are not those of the recording (right ones: −20 to −45).
-BAD_FIT = -55.0
+#: Mean score of a frame below which words are not those of the recording (right ones: −9 to −35, wrong ones below −58).
+BAD_FIT = -50.0
 #: Part of the loud sound that may lie outside all words.
-LEFT_OVER = 0.25
+LEFT_OVER = 0.15
 
 
 def align(
@@ -126,11 +126,7 @@ class _Work:
 
     def _keep(self, found: list[AlignedWord], start: float, end: float) -> None:
         scores = [p.score for w in found if _is_word(w) for p in w.phones]
-        loose = self._seconds_of_speech(start, end)
-        inside = sum(
-            self._seconds_of_speech(start + w.start - 0.03, start + w.end + 0.03) for w in found if _is_word(w)
-        )
-        if scores and (float(np.mean(scores)) < BAD_FIT or loose - inside > max(0.4, LEFT_OVER * loose)):
+        if scores and (float(np.mean(scores)) < BAD_FIT or self._is_left_over(found, start, end)):
             self.doubtful.append((start, end))
         self.words += [
             AlignedWord(
@@ -141,6 +137,14 @@ class _Work:
             )
             for w in found
         ]
+
+    def _is_left_over(self, found: Sequence[AlignedWord], start: float, end: float) -> bool:
+        """Whether much of what is loud enough for speech lies outside all words."""
+        loud = self.levels[round(start / cut.STEP) : round(end / cut.STEP)] > self.level
+        outside = loud.copy()
+        for word in filter(_is_word, found):
+            outside[max(0, int((word.start - 0.03) / cut.STEP)) : round((word.end + 0.03) / cut.STEP)] = False
+        return bool(np.count_nonzero(outside) > max(0.4 / cut.STEP, LEFT_OVER * np.count_nonzero(loud)))
 
     def _seconds_of_speech(self, start: float, end: float) -> float:
         part = self.levels[max(0, round(start / cut.STEP)) : round(end / cut.STEP)]

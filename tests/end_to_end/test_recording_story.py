@@ -108,6 +108,26 @@ def test_drop_align_edit_undo_save_and_open_again(
     assert editor.session.utterance.schedule.times[2] == pytest.approx(moved.schedule.times[2], abs=1e-6)
 
 
+def test_a_sentence_is_kept_with_its_sound_and_comes_back(editor: Editor, qtbot: QtBot, tmp_path: Path) -> None:
+    recording = editor.wiring.speech_in.recording
+    with qtbot.waitSignal(editor.speech.spoken, timeout=20_000):
+        editor.wiring.sentence.type("Hello there.", play=False)
+    said = editor.session.utterance
+    assert said is not None
+    kept = tmp_path / "mine.utterance.json"
+    (tmp_path / "mine.wav").write_bytes(b"somebody else's")
+    assert recording.save(kept, said)
+    assert recording.save(kept, said)  # again: no third sound
+    assert sorted(path.name for path in tmp_path.glob("*.wav")) == ["mine-2.wav", "mine.wav"]
+    with qtbot.waitSignal(recording.hearing.labelled, timeout=20_000):
+        drop(editor, kept)
+    again = editor.session.utterance
+    assert again is not None
+    assert again.schedule.phones == said.schedule.phones
+    assert again.audio is not None
+    assert recording.path == tmp_path / "mine-2.wav"
+
+
 def test_label_files_ask_for_unknown_names_once(
     editor: Editor, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -162,6 +182,7 @@ def test_a_recording_replayed_as_if_live_moves_the_face_and_becomes_an_utterance
         drop(editor, wav)
     panel, live = editor.window.live_panel, editor.wiring.speech_in.live
     editor.window.actions_.live.trigger()
+    assert panel.devices.count() > 0  # the microphones, or that there is none
     shown: list[float] = []
     editor.preview.weights_changed.connect(lambda weights: shown.append(float(weights.max())))
     with qtbot.waitSignal(live.ended, timeout=60_000) as over:

@@ -14,6 +14,7 @@ from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.editor import Editor
+from core_pipeline.phonemes import SILENCE
 from widgets.canvas.keymaps import KEYMAPS
 
 SEED = int(os.environ.get("MONKEY_SEED", "20130"))
@@ -129,7 +130,7 @@ class Monkey:
         document, wiring = editor.document, editor.wiring
         pair, curve_set = wiring.bigram.pair, document.curve_set
         assert pair is not None
-        assert pair == w.picker.current
+        assert SILENCE in pair or pair == w.picker.current  # the square has no silence
         assert wiring.tabs.pairs[wiring.tabs._at] == pair
         assert len(set(wiring.tabs.pairs)) == len(wiring.tabs.pairs)
         assert w.beside.isHidden() == (wiring.beside.pair is None)
@@ -170,7 +171,7 @@ def test_edits_and_undos_leave_no_objects_behind(editor: Editor, qtbot: QtBot) -
     document, pairs = editor.document, (("f", "ah"), ("l", "ow"))
 
     def round_trip() -> int:
-        for i in range(20):
+        for i in range(8):
             editor.wiring.bigram.open(pairs[i % 2])
             editor.window.canvas.select_all()
             editor.window.canvas.nudge(0.0, 0.01)
@@ -180,8 +181,10 @@ def test_edits_and_undos_leave_no_objects_behind(editor: Editor, qtbot: QtBot) -
         document.undo_stack.clear()
         QApplication.processEvents()
         gc.collect()
-        return len(gc.get_objects())
+        kinds = (str(type(thing).__module__).split(".")[0] for thing in gc.get_objects())
+        return sum(kind in {"PySide6", "shiboken6", "app", "widgets"} for kind in kinds)
 
+    qtbot.waitUntil(lambda: editor.preview.milliseconds > 0, timeout=20_000)  # the face has loaded what it needs
     round_trip()
     before = round_trip()
-    assert round_trip() - before < 100
+    assert round_trip() - before < 5

@@ -15,6 +15,8 @@ _GAP = "\u2002·\u2002"
 
 #: Pixels that the text keeps; buttons that would take them are left out.
 TEXT = 210
+#: Pixels of the whole at least.
+NARROWEST = 230
 #: Letters of a note that stand in the line.
 NOTE = 40
 
@@ -34,8 +36,8 @@ _SPARE = ("duplicate", "slide", "reverse", "mirror", "copy", "paste")
 class CanvasHeader(QWidget):
     """“F – Ah  as in “fat” · used 2× in this sentence · draft”, two switches, and buttons for what keys do too.
 
-    Where there is no room some buttons go first, then words, the use, the status, the example; the tooltip
-    always has the whole line.
+    Where there is no room some buttons go first, then words, the use, the status, the example; the tooltip always
+    has the whole line.
     """
 
     snap_toggled = Signal(bool)
@@ -177,6 +179,10 @@ class CanvasHeader(QWidget):
         for action, _, tip in _ACTIONS:
             key = f" ({keys[action]})" if keys.get(action) else ""
             self._actions[action].setToolTip(self.tr(tip) + key)
+
+    def minimumSizeHint(self) -> QSize:
+        """Room for the bigram and three buttons: the spare ones go where it is less than roomy."""
+        return QSize(NARROWEST, super().minimumSizeHint().height())
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Fits the line."""

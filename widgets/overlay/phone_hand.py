@@ -120,10 +120,12 @@ class PhoneHand(StageOverlay):
         self._edge = None
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Qt's hook: Escape gives a drag up."""
+        """Qt's hook: Escape gives a drag up; F2 renames the phone at the playhead."""
         if event.key() == Qt.Key.Key_Escape and self._gesture == "edge":
             self._gesture, self._edge = "", None
             self.edge_let_be.emit()
+        elif event.key() == Qt.Key.Key_F2 and self._stages is not None and self._known:
+            self._ask("rename", phone_at(self._stages, self._playhead))
         else:
             super().keyPressEvent(event)
 

@@ -87,12 +87,14 @@ class LivePanel(QWidget):
 
     def set_devices(self, devices: Sequence[tuple[object, str]], reason: str = "") -> None:
         """(device, title) of every microphone; without any, why."""
+        before = self.devices.currentData()
         with QSignalBlocker(self.devices):
             self.devices.clear()
             for device, title in devices:
                 self.devices.addItem(title, device)
             if not devices:
                 self.devices.addItem(self.tr("no microphone"), None)
+            self.devices.setCurrentIndex(max(0, self.devices.findData(before) if before is not None else 0))
         self._reason = self.tr("{0}. A recording can still be replayed.").format(reason) if reason else ""
         self.set_message("")
         self._enable()

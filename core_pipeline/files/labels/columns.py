@@ -108,9 +108,9 @@ def _unit(
     """Seconds of one unit of the numbers, the format's name, notes."""
     if any("." in number for row, count in zip(rows, counts, strict=True) for number in row[:count]):
         return 1.0, "label file in seconds", []
-    times = [int(float(row[0])) for row in rows]
+    times = [float(row[0]) for row in rows]
     steps = [b - a for a, b in pairwise(times) if b > a]
-    typical = median(steps) if steps else int(float(rows[0][1])) - times[0] if counts[0] == 2 else 0
+    typical = median(steps) if steps else float(rows[0][1]) - times[0] if counts[0] == 2 else 0.0
     # a phone of 20 ms to 0.5 s is 200,000 to 5,000,000 units of HTK, 160 to 24,000 samples
     if typical >= 50_000 or (ending in (".lab", ".mlf", ".rec") and typical > 30_000):
         return 1e-7, "HTK label file", []

@@ -14,7 +14,7 @@ from . import columns, textgrid
 from .label_file import Interval, LabelFile, make
 from .text import decode
 
-MAX_BYTES = 32 * 2**20
+MAX_BYTES = 16 * 2**20
 #: Endings of label files, of which .json may be something else too.
 ENDINGS = (".textgrid", ".lab", ".phn", ".mlf", ".rec", ".phones", ".wrd", ".csv", ".txt")
 

@@ -21,7 +21,7 @@ from ..json_text import shown
 from .label_file import MOST, Interval, LabelFile, make
 
 #: A string (quotes in it are doubled), a comment, or a word.
-_TOKEN = re.compile(r'"((?:[^"]|"")*)"|(![^\n]*)|([^\s"=!]+)')
+_TOKEN = re.compile(r'"([^"]*+(?:""[^"]*+)*+)"|(![^\n]*)|([^\s"=!]+)')
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 _PHONES = re.compile(r"phon|seg|^mau$|^kas$|^phn$|[-_ .]mau$|allophon", re.IGNORECASE)
 _WORDS = re.compile(r"word|^ort|[-_ .]ort|^wrd$|orthograph|^mot", re.IGNORECASE)

@@ -85,6 +85,11 @@ def test_a_wrong_transcript_is_refused_or_doubted(spoken, sphinx, voice, text):
     assert "check the transcript" in found.notes[0] if found else "transcript" in refusal
 
 
+def test_half_a_transcript_is_doubted_and_a_whole_one_is_not(spoken, sphinx, voice):
+    half = align(spoken[0].audio, "Fat cats often find fish, but seven", sphinx, voice)
+    assert "check the transcript" in half.notes[0]
+
+
 def test_a_faint_recording_is_aligned_as_a_loud_one(spoken, sphinx, voice):
     u = spoken[2]
     found = align(Audio(u.audio.samples * np.float32(0.01), u.audio.rate), u.text, sphinx, voice)

@@ -86,6 +86,15 @@ def test_a_double_click_renames_and_only_known_names_count(overlay):
     assert not overlay.field.isVisible()
 
 
+def test_f2_renames_the_phone_at_the_playhead(overlay):
+    renamed = heard(overlay.phone_renamed)
+    overlay.set_playhead(float(overlay._stages.schedule.times[3]) + 0.01)
+    QTest.keyClick(overlay, Qt.Key.Key_F2)
+    QTest.keyClicks(overlay.field, "f")
+    QTest.keyClick(overlay.field, Qt.Key.Key_Return)
+    assert renamed == [(3, "f")]
+
+
 def test_escape_closes_the_field_without_a_change(overlay):
     renamed = heard(overlay.phone_renamed)
     QTest.mouseDClick(overlay, Qt.MouseButton.LeftButton, pos=middle(overlay, 2))

@@ -118,6 +118,13 @@ def test_what_cannot_be_read_is_one_sentence(text, says):
     assert "a.lab" in str(told.value)
 
 
+def test_numbers_beyond_all_numbers_are_no_times(tmp_path):
+    path = tmp_path / "a.lab"
+    path.write_text("9" * 400 + " 5 a\n")
+    with pytest.raises(UserError, match="no labels with a length"):
+        read(path)
+
+
 @given(st.text(st.sampled_from('0123456789.- \t\n#aesil;"e+'), max_size=80), st.sampled_from([".lab", ".phn", ".txt"]))
 def test_no_text_is_a_fault_of_ours(text, ending):
     found, refusal = outcome(lambda: parse(text.encode(), "x", ending))
