@@ -22,16 +22,16 @@ from widgets import theme
 from . import resources
 from .collector import Collector
 from .document import Document
-from .faces import Faces
 from .file_actions import FileActions
 from .main_window import MainWindow
-from .preview import Preview
+from .preview.faces import Faces
+from .preview.preview import Preview
 from .rigs import curves_of, face_path
 from .session import Session
 from .settings import ViewState
-from .speech_worker import SpeechWorker
 from .wiring.parts import Parts
 from .wiring.wiring import Wiring
+from .workers.speech_worker import SpeechWorker
 
 _log = logging.getLogger("lipstitch")
 

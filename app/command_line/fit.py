@@ -13,7 +13,7 @@ from core_pipeline.files import curve_set_json
 from core_pipeline.files.json_text import shown
 
 from .. import resources
-from ..aligner import aligner
+from ..workers.aligner import aligner
 from .corpus import spoken
 from .progress import Progress
 from .steps import tell

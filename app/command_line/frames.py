@@ -104,7 +104,7 @@ def _platform() -> Platform | None:
         return None
     from PySide6.QtGui import QGuiApplication
 
-    from ..gl_platform import make_platform
+    from ..preview.gl_platform import make_platform
 
     global _qt  # noqa: PLW0603 - must live as long as the context
     _qt = QGuiApplication.instance() or QGuiApplication(["lipstitch"])

@@ -16,7 +16,7 @@ from core_pipeline.speech.speaker import speak
 from widgets import theme
 
 from ..editor import Editor
-from ..png import png
+from ..preview.png import png
 from ..settings import ViewState
 
 #: Drawing the face once takes a fraction of this, even in software.

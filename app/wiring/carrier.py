@@ -16,7 +16,7 @@ from core_pipeline.speech.dictionary import installed
 from core_pipeline.speech.sentence import clean
 
 from .. import resources
-from ..latest import Latest
+from ..workers.latest import Latest
 from .parts import Parts
 from .sentence import Sentence
 

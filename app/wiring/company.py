@@ -10,8 +10,8 @@ from PySide6.QtCore import QObject, Signal
 from core_pipeline.faces.open_face import Opened
 from widgets.preview.name_tag import Tag
 
-from ..cast import MOST, Actor, Source
-from ..faces import Faces
+from ..preview.cast import MOST, Actor, Source
+from ..preview.faces import Faces
 from .parts import Parts
 
 

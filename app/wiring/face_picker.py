@@ -11,7 +11,7 @@ from core_pipeline.faces.open_face import Opened
 from widgets.preview.face_picker import Choice
 
 from .. import resources
-from ..thumbnails import Thumbnails
+from ..preview.thumbnails import Thumbnails
 from .character import Character
 from .parts import Parts
 

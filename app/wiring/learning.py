@@ -14,7 +14,7 @@ from core_pipeline.learning.bigram_curves import LEARNED
 from core_pipeline.phonemes import Pair, pair_name
 from widgets.window.learn_view import LearnRow, LearnView
 
-from ..corpus_learner import CorpusLearner, Lesson
+from ..workers.corpus_learner import CorpusLearner, Lesson
 from .parts import Parts
 
 

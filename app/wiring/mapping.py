@@ -20,7 +20,7 @@ from widgets.preview.mapping_panel import REFERENCE
 
 from .. import resources
 from ..commands import Change, MappingOfFace
-from ..reference import Reference
+from ..preview.reference import Reference
 from .parts import Parts
 
 #: The panel says this itself, and of the present mixes.

@@ -18,7 +18,7 @@ from core_pipeline.pipeline import Stages
 from core_pipeline.weights import Weights, bake
 from widgets.overlay.method_box import NONE
 
-from ..method_learner import MethodLearner, Wish
+from ..workers.method_learner import MethodLearner, Wish
 from .company import Company
 from .parts import Parts
 
@@ -152,6 +152,9 @@ class OtherMethod(QObject):
             self._show_faces()
             return
         poses = tuple(pose for pose in stages.poses if pose in self.method.poses)
+        if not poses:
+            self._failed(self.tr("{0} has none of this set's poses: it cannot be compared").format(self.method.title))
+            return
         try:
             self.weights = self.method.synthesize(stages.schedule, poses, FPS)
         except UserError as error:

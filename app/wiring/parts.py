@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from core_pipeline.speech.speaker import Speaker
 
 from ..document import Document
-from ..faces import Faces
 from ..file_actions import FileActions
 from ..main_window import MainWindow
-from ..preview import Preview
+from ..preview.faces import Faces
+from ..preview.preview import Preview
 from ..session import Session
 from ..settings import ViewState
-from ..speech_worker import SpeechWorker
+from ..workers.speech_worker import SpeechWorker
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,7 +14,7 @@ from core_pipeline.queue_order import next_after, work_order
 from core_pipeline.statistics import Frequencies, progress
 
 from .. import resources
-from ..diagnosis import CorpusReport
+from ..workers.diagnosis import CorpusReport
 from .carrier import Carrier
 from .open_bigram import OpenBigram
 from .parts import Parts

@@ -18,8 +18,8 @@ from core_pipeline.speech.recognise import Heard
 from core_pipeline.speech.utterance import Audio, Utterance
 from widgets.speech.assign_dialog import AssignDialog
 
-from ..hearing import Hearing, Labelled, Opened
 from ..spoken_files import from_zero, is_spoken, recording_of, save_spoken, saved_beside
+from ..workers.hearing import Hearing, Labelled, Opened
 from .parts import Parts
 from .phones import Phones
 from .sentence import Sentence

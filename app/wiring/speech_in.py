@@ -15,8 +15,8 @@ from core_pipeline.speech.utterance import Utterance
 from widgets.speech.assign_dialog import AssignDialog
 
 from .. import resources
-from ..live_worker import Heard, LiveWorker, microphones
 from ..phoneme_maps import check_fits
+from ..workers.live_worker import Heard, LiveWorker, microphones
 from .parts import Parts
 from .phones import Phones
 from .recording import Recording

@@ -14,8 +14,8 @@ from core_pipeline.files.atomic import write_atomically
 from core_pipeline.study import LEFT, RIGHT, Answer, Study, to_csv, told
 from widgets.window.study_view import StudyView
 
-from ..pair_reader import Film, Pair, PairReader
 from ..player import Player
+from ..workers.pair_reader import Film, Pair, PairReader
 from .parts import Parts
 
 

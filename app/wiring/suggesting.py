@@ -12,8 +12,8 @@ from core_pipeline.errors import UserError
 from core_pipeline.phonemes import SILENCE, Pair, pair_name
 from core_pipeline.suggest import fill
 
-from ..diagnosis import Diagnosis
 from ..priors import prior_for
+from ..workers.diagnosis import Diagnosis
 from .open_bigram import OpenBigram
 from .parts import Parts
 from .weak import Weak

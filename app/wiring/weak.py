@@ -14,7 +14,7 @@ from widgets.overlay.stage_marks import Mark
 from widgets.picker.weak_list import WeakRow
 from widgets.picker.weak_panel import CORPUS, SENTENCE
 
-from ..diagnosis import CorpusReader, CorpusReport, Diagnoser, Diagnosis
+from ..workers.diagnosis import CorpusReader, CorpusReport, Diagnoser, Diagnosis
 from .open_bigram import OpenBigram
 from .parts import Parts
 from .sentence import Sentence

@@ -22,7 +22,7 @@ from core_pipeline.settings import Settings
 from core_pipeline.speech.utterance import Utterance
 
 from ..exchange import Exchange
-from ..preview import BIGRAM_SECONDS
+from ..preview.preview import BIGRAM_SECONDS
 from .before_after import BeforeAfter
 from .beside import Beside
 from .carrier import Carrier

@@ -1,13 +1,16 @@
 """A researcher compares methods on one face; an animator learns bigrams from takes. All parts are real."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QMessageBox
 
-from core_pipeline.files import model_npz, schedule_json, weights_files
+from app import resources
+from core_pipeline.files import curve_set_json, model_npz, schedule_json, weights_files
 from core_pipeline.methods import visemes
+from core_pipeline.methods.bigram import BigramMethod
 from tests.helpers.corpora import baked, corpus
 
 PATIENCE = 60_000
@@ -55,6 +58,17 @@ def test_what_is_no_model_is_said(editor, qtbot, tmp_path):
     assert editor.window.stage_panel.method_box.box.currentIndex() == 0
 
 
+def test_a_set_of_another_kind_of_face_is_not_compared(editor, qtbot):
+    """The crab's set, compared with one whose poses it does not have, is said to be of no use."""
+    said(editor, qtbot)
+    other = editor.wiring.other_method
+    crab = curve_set_json.load(resources.english_curves().with_name("crab.json"))
+    foreign = replace(crab, poses=("claw",), bigrams={})
+    other._made(BigramMethod(foreign))
+    assert "none of this set's poses" in editor.window.hint_label.text()
+    assert other.weights is None
+
+
 @pytest.fixture
 def takes(tmp_path) -> Path:
     folder = tmp_path / "takes"
@@ -97,8 +111,6 @@ def test_bigrams_learned_and_accepted_one_by_one(editor, qtbot, takes, monkeypat
 
 def test_all_heard_fill_an_empty_set_in_one_step(editor, qtbot, takes):
     learning, document = editor.wiring.learning, editor.document
-    from dataclasses import replace
-
     document.new(replace(document.curve_set, bigrams={}))
     learning.open()
     learning.learn(takes)

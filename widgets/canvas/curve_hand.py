@@ -160,6 +160,8 @@ class CurveHand(CurveScene, ABC):
         if all(now[pose].same_as(self.curves.get(pose)) for pose in touched):
             return None
         self.curves = now
+        if self.hover is not None and not self._has(self.hover):
+            self.hover = None  # on the way to another version curves have other keys
         return {pose: now[pose] for pose in touched}
 
     def release(self, x: float, y: float) -> Edit | None:

@@ -6,7 +6,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QImage
 
 from core_pipeline.curves import Curve
-from tests.helpers.curve_hand import ALT, CTRL, FV, LEFT, OPEN, SHIFT
+from tests.helpers.curve_hand import ALT, CTRL, FV, LEFT, NO_BUTTON, OPEN, SHIFT
 from widgets import theme
 from widgets.canvas.curve_edits import blended
 from widgets.canvas.curve_versions import CurveVersions
@@ -201,6 +201,19 @@ def test_ctrl_d_takes_over_a_similar_bigram_and_up_and_down_choose_another(hand,
     assert changes == {"W": FV, "open": None, "FV": None}
     hand.undo()
     assert ghosted.curves["FV"] is FV
+
+
+def test_the_key_under_the_pointer_may_vanish_on_the_way(hand, canvas, qtbot):
+    """Painting a key that is no more brought the program down."""
+    canvas.set_neighbours({"F – Aa": {"FV": Curve.of([(0, 0), (1, 0)])}})
+    hand.move(0.56, 0.06, button=NO_BUTTON)
+    assert canvas._control.hover == ("FV", 4)
+    hand.key(Key.Key_D, CTRL)
+    assert len(canvas.curves["FV"]) == 2
+    assert canvas._control.hover is None
+    assert not canvas.grab().isNull()
+    qtbot.keyClick(canvas.blend_bar.slider, Key.Key_Escape)
+    assert canvas.curves["FV"] is FV
 
 
 def test_where_no_bigram_is_similar_duplicating_says_so(hand, canvas):

@@ -15,7 +15,7 @@ from core_pipeline.faces.looks import ANGLES
 from core_pipeline.faces.render import Figure
 from core_pipeline.faces.view import View
 
-from . import resources
+from .. import resources
 from .render_worker import RenderWorker
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from app.speech_worker import SpeechWorker
+from app.workers.speech_worker import SpeechWorker
 from core_pipeline.speech.dictionary import Dictionary
 from core_pipeline.speech.espeak import Espeak
 from core_pipeline.speech.speaker import Speaker

@@ -14,7 +14,7 @@ from core_pipeline.faces import rig_cache
 from core_pipeline.faces.mapping_json import load_presets
 from core_pipeline.faces.open_face import Opened, open_face
 
-from . import resources
+from .. import resources
 
 #: Seconds between two reports of how far the reading is.
 QUIET = 0.25

@@ -4,7 +4,7 @@ import threading
 
 import pytest
 
-from app.latest import Latest
+from app.workers.latest import Latest
 from core_pipeline.errors import UserError
 
 

@@ -20,8 +20,8 @@ from core_pipeline.speech.speaker import Speaker
 from core_pipeline.statistics import Frequencies
 from core_pipeline.suggest import Suggestions
 
+from ..priors import prior_for
 from .latest import Latest
-from .priors import prior_for
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,7 +12,7 @@ from core_pipeline.curve_set import CurveSet
 from core_pipeline.learning.bigram_curves import Learned, learn_bigrams
 from core_pipeline.methods.method import Cancelled
 
-from . import resources
+from .. import resources
 from .aligner import aligner
 from .latest import Latest
 

@@ -15,11 +15,11 @@ from core_pipeline.faces.looks import Angle, Look
 from core_pipeline.faces.view import View
 from core_pipeline.phonemes import Pair
 
-from .audio_output import AudioOutput
+from ..audio_output import AudioOutput
+from ..player import Player
+from ..session import Session
 from .cast import Actor, Cast, Source, Weights
-from .player import Player
 from .render_worker import RenderWorker
-from .session import Session
 from .turntable import Turntable
 
 #: A bigram plays over this long by default, in seconds (two phones of average length).

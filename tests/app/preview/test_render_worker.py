@@ -7,8 +7,8 @@ import pytest
 from PySide6.QtCore import QThread
 from PySide6.QtGui import QImage
 
-from app.gl_platform import QtPlatform, make_platform
-from app.render_worker import RenderWorker
+from app.preview.gl_platform import QtPlatform, make_platform
+from app.preview.render_worker import RenderWorker
 from core_pipeline.faces.render import FaceRenderer, Figure
 from core_pipeline.faces.render_context import process_context
 from core_pipeline.faces.view import View

@@ -2,7 +2,7 @@
 
 import pytest
 
-from app.turntable import Turntable
+from app.preview.turntable import Turntable
 from core_pipeline.faces.looks import TURN_SECONDS
 
 

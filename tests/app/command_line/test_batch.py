@@ -17,7 +17,7 @@ from core_pipeline.speech.speaker import speak
 from core_pipeline.speech.wav import write_wav
 from tests.helpers.outcome import outcome
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,7 @@ import pytest
 from PySide6.QtGui import QImage
 
 from app import resources
-from app.thumbnails import SIDE, Thumbnails
+from app.preview.thumbnails import SIDE, Thumbnails
 from tests.helpers import rigs
 
 

@@ -18,9 +18,9 @@ from core_pipeline.faces.render import Figure, Renderer
 from core_pipeline.faces.view import View
 from core_pipeline.files.atomic import write_atomically
 
+from ..rigs import open_rig
 from .gl_platform import make_platform
 from .png import png
-from .rigs import open_rig
 
 #: Pixels: sharp on a screen of double density.
 SIDE = 192

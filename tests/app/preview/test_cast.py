@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.cast import Actor, Cast
+from app.preview.cast import Actor, Cast
 from core_pipeline.faces import idle
 from core_pipeline.faces.looks import ANGLES
 from tests.helpers.ball import ball

@@ -1,6 +1,6 @@
 """Moving pictures become coarser when they take too long, and finer again when there is time."""
 
-from app.pace import BUDGET, SMALLEST, STEPS, Pace
+from app.preview.pace import BUDGET, SMALLEST, STEPS, Pace
 
 SIZE = (800, 600)
 

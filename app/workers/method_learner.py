@@ -15,7 +15,7 @@ from core_pipeline.methods.method import Cancelled, Method
 from core_pipeline.schedule import Schedule
 from core_pipeline.speech.speaker import Speaker
 
-from . import resources
+from .. import resources
 from .latest import Latest
 
 #: Sentences of our corpus that a method is learned from, and the fewest words of one.

@@ -5,8 +5,8 @@ import threading
 import numpy as np
 import pytest
 
-from app import faces as module
-from app.faces import Faces
+from app.preview import faces as module
+from app.preview.faces import Faces
 from core_pipeline.poses import FACEFX
 from tests.helpers.rigs import NAMES, as_glb, as_objs, head
 
