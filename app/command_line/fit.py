@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 #: Notes on clips that are told; a corpus of thousands may have as many.
 MOST_NOTES = 30
-_STEPS = 1000
+_STEPS = 100
 
 
 def fit(options: argparse.Namespace) -> int:
@@ -46,12 +46,12 @@ def fit(options: argparse.Namespace) -> int:
         corpus = Corpus.of(rest, corpus.phonemes, corpus.phoneme_map, corpus.notes)
     kind = KINDS[options.method]
     began = time.perf_counter()
-    with Progress(_STEPS, "thousandths") as progress:
+    with Progress(_STEPS, "%") as progress:
         learned = kind.fit(
             corpus,
             options.clusters,
             options.selection,
-            lambda share, what: progress.step(round(share * _STEPS), f"thousandths: {what}"),
+            lambda share, what: progress.step(round(share * _STEPS), f"%: {what}"),
         )
     seconds = time.perf_counter() - began
     about = {
@@ -80,9 +80,9 @@ def read_corpus(path: Path, like: CurveSet, voice: str) -> Corpus:
         method = BigramMethod(like)
         clips = [Clip.of(text, s, method.synthesize(s, like.poses, 60)) for text, s in spoken(path, voice)]
         return Corpus.of(clips, like.phonemes, like.phoneme_map)
-    with Progress(_STEPS, "files") as progress, aligner(voice) as align:
+    with Progress(_STEPS, "%") as progress, aligner(voice) as align:
         corpus = Reader(like, load_presets(resources.retarget_presets()), align).read(
-            path, lambda share, name: progress.step(round(share * _STEPS), f"thousandths: {name}")
+            path, lambda share, name: progress.step(round(share * _STEPS), f"%: {name}")
         )
     for note in corpus.notes[:MOST_NOTES]:
         tell(shown(note, 500))
