@@ -126,7 +126,8 @@ def test_a_live_chunk(benchmark, voice, sphinx):
     benchmark.extra_info |= {"latency ms": round(1000 * float(np.median(latencies)))}
     print(benchmark.extra_info)
     within(benchmark, 0.016)
-    assert np.median(latencies) <= 0.35
+    if benchmark.enabled:  # a single chunk is all silence
+        assert np.median(latencies) <= 0.35
 
 
 def _at(schedule, t):
