@@ -8,6 +8,7 @@ from core_pipeline.curve_set import CurveSet
 from core_pipeline.errors import UserError
 from core_pipeline.files.json_text import shown
 from core_pipeline.phonemes import SILENCE, TABLE_1
+from core_pipeline.speech.audio_file import FASTEST_RATE, SLOWEST_RATE
 from core_pipeline.speech.espeak import voice_named
 from core_pipeline.speech.intake import Source
 
@@ -17,6 +18,10 @@ from ..phoneme_maps import applied
 
 def source_of(options: argparse.Namespace) -> Source:
     """What `bake` was asked to say. UserError for an assignment that is none."""
+    if options.label_rate is not None and not SLOWEST_RATE <= options.label_rate <= FASTEST_RATE:
+        raise UserError(
+            f"--label-rate {options.label_rate} is no rate of recordings: choose {SLOWEST_RATE} to {FASTEST_RATE}."
+        )
     return Source(
         text=options.text or "",
         audio=options.audio,
