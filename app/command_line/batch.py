@@ -109,7 +109,7 @@ def _read(journal: Path) -> dict[str, str]:
     for line in lines:
         try:
             name, mark = json.loads(line)
-        except (ValueError, TypeError):
+        except (ValueError, TypeError, RecursionError):
             continue
         found[str(name)] = str(mark)
     return found

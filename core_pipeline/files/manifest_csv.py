@@ -34,7 +34,7 @@ class Row:
 
 def load(path: Path) -> list[Row]:
     """The lines of a manifest, each with a name of its own. UserError names line and cure."""
-    text = decode(read_bytes(path, MAX_BYTES, "manifest"), str(path))
+    text = decode(read_bytes(path, MAX_BYTES, "manifest"), str(path), "manifest")
     head = text.lstrip("\n").split("\n", 1)[0]
     delimiter = max(",;\t", key=head.count)
     try:

@@ -20,8 +20,9 @@ from ..curve_set import CurveSet
 from ..errors import UserError
 from ..faces.retarget import Preset
 from ..files import weights_read
-from ..files.atomic import reason
+from ..files.atomic import read_bytes, reason
 from ..files.labels.read import read as read_labels
+from ..files.labels.text import decode
 from ..methods.method import Progress, no_progress
 from ..schedule import Schedule
 from ..speech.labels import utterance_of
@@ -34,6 +35,7 @@ from .key_shapes import KeyShapes
 Aligner = Callable[[Path, str], Schedule]
 
 MAX_FILES = 20_000
+MAX_TRANSCRIPT = 2**20
 _SOUNDS = (".wav", ".flac", ".ogg", ".mp3", ".m4a", ".mov", ".mp4")
 _LABELS = (".textgrid", ".phn", ".mlf", ".rec", ".phones")
 _SCHEDULE = ".schedule.json"
@@ -112,7 +114,8 @@ class Reader:
             raise UserError(f"it has no labels; put {animation.stem}.TextGrid, or a recording and its text, beside it.")
         if self.align is None:
             raise UserError(f"{sound.name} cannot be aligned here; put {animation.stem}.TextGrid beside it.")
-        return self.align(sound, text.read_text("utf-8-sig", "replace")), ()
+        words = decode(read_bytes(text, MAX_TRANSCRIPT, "transcript"), str(text), "transcript")
+        return self.align(sound, words), ()
 
 
 def told_once(clips: Sequence[Clip]) -> list[str]:

@@ -90,4 +90,4 @@ def transcript_of(given: str) -> str:
     """The words themselves, or those in the .txt file of that name. UserError when it cannot be read."""
     if not given.lower().endswith(".txt") or "\n" in given:
         return given
-    return decode(read_bytes(given, 2**20, "transcript"), given)
+    return decode(read_bytes(given, 2**20, "transcript"), given, "transcript")

@@ -1,4 +1,4 @@
-"""Bytes of a label file → text, in whatever encoding its program wrote."""
+"""Bytes of a label file, transcript or table → text, in whatever encoding its program wrote."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ _MARKS = (
 )
 
 
-def decode(data: bytes, place: str) -> str:
+def decode(data: bytes, place: str, what: str = "label file") -> str:
     """Text with \\n as line end: by its byte order mark, else UTF-16 by its zeros, UTF-8, Latin-1.
 
-    UserError for what is no text at all.
+    what  it should be, for the UserError when it is no text at all
     """
     for mark, encoding in _MARKS:
         if data.startswith(mark):
@@ -27,7 +27,7 @@ def decode(data: bytes, place: str) -> str:
     if zeros > len(head) / 4:
         return _lines(_decoded(data, "utf-16-le" if head[1::2].count(0) > head[::2].count(0) else "utf-16-be", place))
     if zeros:
-        raise UserError(f"{place} is no label file (it is not text): choose another file.")
+        raise UserError(f"{place} is no {what} (it is not text): choose another file.")
     try:
         return _lines(data.decode("utf-8"))
     except UnicodeDecodeError:

@@ -123,6 +123,7 @@ def test_no_cluster_is_one_sentence(folder, tmp_path, capsys):
         ("name,text\n", "no lines"),
         ("a,b\n1,2\n", "first line"),
         ("name,text\nx,hi\nX,ho\n", "both named"),
+        ("\0\1\2\3" * 99 + "x" * 999, "no manifest (it is not text)"),
         ("name;text\nx;hi\n", ""),
         ("\ufeffName,Text\r\n../x,hi\r\n", ""),
     ],
@@ -135,3 +136,15 @@ def test_a_manifest_is_read_or_refused_in_one_sentence(tmp_path, text, says):
     if found:
         assert found[0].cells["text"] == "hi"
         assert "/" not in found[0].name
+
+
+def test_a_damaged_journal_only_costs_work_done_twice(tmp_path, capsys):
+    manifest, out = tmp_path / "m.csv", tmp_path / "out"
+    manifest.write_text("name,text\na,Hello\n")
+    out.mkdir()
+    (out / "batch-done.jsonl").write_bytes(b"[" * 100_000 + b'\n\xff\n["a"]\n3\nnull\n{"a": 1, "b": 2}\n["a", []]\n')
+    command = ["batch", str(manifest), "--out", str(out), "--workers", "1"]
+    assert main(command) == 0
+    assert "1 of 1 lines baked" in capsys.readouterr().out
+    assert main(command) == 0
+    assert "1 were done before" in capsys.readouterr().out

@@ -152,6 +152,11 @@ def test_recordings_are_aligned_where_something_can(folder):
     corpus = Reader(english(), PRESETS, align).read(folder)
     assert asked == [("say2.wav", "Hello there.")]
     assert len(corpus) == 4
+    (folder / "say2.txt").write_bytes("Hello there.".encode("utf-16"))  # as Notepad's "Unicode"
+    Reader(english(), PRESETS, align).read(folder)
+    assert asked[1] == asked[0]
+    (folder / "say2.txt").write_bytes(b"RIFF\0\0" * 99 + b"x" * 9000)
+    assert "say2.txt is no transcript" in "\n".join(Reader(english(), PRESETS, align).read(folder).notes)
     assert "say2.wav cannot be aligned here" in "\n".join(Reader(english(), PRESETS).read(folder).notes)
 
 
