@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import QByteArray, QEvent, Qt, QTimer, Signal
+from PySide6.QtCore import QByteArray, QEvent, QMargins, Qt, QTimer, Signal
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeyEvent, QPalette, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QDockWidget,
@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
     QMainWindow,
     QSizePolicy,
     QSplitter,
+    QStyle,
     QToolBar,
     QVBoxLayout,
     QWidget,
@@ -166,6 +167,12 @@ class MainWindow(QMainWindow):
             if mapping:
                 self.mapping_dock.show()
                 self.mapping_dock.raise_()
+
+    def fit_screen(self) -> None:
+        """No larger than the screen leaves free, with a title bar above: the status bar stays in sight."""
+        free = self.screen().availableSize()
+        title = self.style().pixelMetric(QStyle.PixelMetric.PM_TitleBarHeight)
+        self.resize(self.size().boundedTo(free.shrunkBy(QMargins(0, title, 0, 0))))
 
     def restore_layout(self, geometry: QByteArray, docks: QByteArray) -> None:
         """Last time's layout, as far as it still fits."""
