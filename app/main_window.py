@@ -159,9 +159,9 @@ class MainWindow(QMainWindow):
             self.use_layout(self._layout)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """A window made low puts its docks behind one another."""
+        """A window made low puts its docks behind one another, and made high again side by side."""
         super().resizeEvent(event)
-        if self._sized and event.size().height() < LOW <= event.oldSize().height():
+        if self._sized and (event.size().height() < LOW) != (event.oldSize().height() < LOW):
             mapping = self.mapping_dock.toggleViewAction().isChecked()
             self.use_layout(self._layout)
             if mapping:

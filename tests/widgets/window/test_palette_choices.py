@@ -11,6 +11,8 @@ COMMANDS = [
     Choice("open", "Open", "File"),
     Choice("weights", "Export Weights", "File"),
     Choice("curves", "Export Curve Set", "File"),
+    Choice("slide", "Slide to another version", "Canvas"),
+    Choice("statistics", "Corpus Statistics", "Tools"),
     Choice("layout", "Reset Layout", "View"),
     Choice("redo", "Redo", "Edit", enabled=False),
 ]
@@ -44,6 +46,8 @@ def test_a_title_typed_whole_is_first(title):
     ("query", "first"),
     [
         ("exw", "weights"),
+        ("stat", "statistics"),
+        ("stav", "slide"),
         ("expcur", "curves"),
         ("RESET", "layout"),
         ("view lay", "layout"),
@@ -66,7 +70,8 @@ def test_the_first_phone_alone_finds_its_row():
 
 
 def test_without_a_query_the_recent_come_first_and_bigrams_only_when_recent():
-    assert ids("", recent=["layout", "f-ah", "gone"]) == ["layout", "f-ah", "open", "weights", "curves", "redo"]
+    others = ["open", "weights", "curves", "slide", "statistics", "redo"]
+    assert ids("", recent=["layout", "f-ah", "gone"]) == ["layout", "f-ah", *others]
 
 
 def test_of_two_that_fit_alike_the_recent_one_is_first():
