@@ -14,6 +14,7 @@ COMMANDS = [
     Choice("slide", "Slide to another version", "Canvas"),
     Choice("statistics", "Corpus Statistics", "Tools"),
     Choice("layout", "Reset Layout", "View"),
+    Choice("opening", "The Version at Opening", "Tools → Compare With"),
     Choice("redo", "Redo", "Edit", enabled=False),
 ]
 PHONES = ("ah", "aa", "f", "t", "th", "h")
@@ -51,6 +52,7 @@ def test_a_title_typed_whole_is_first(title):
         ("expcur", "curves"),
         ("RESET", "layout"),
         ("view lay", "layout"),
+        ("compare", "opening"),
         ("f ah", "f-ah"),
         ("F-AH", "f-ah"),
         ("fah", "f-ah"),
@@ -70,7 +72,7 @@ def test_the_first_phone_alone_finds_its_row():
 
 
 def test_without_a_query_the_recent_come_first_and_bigrams_only_when_recent():
-    others = ["open", "weights", "curves", "slide", "statistics", "redo"]
+    others = ["open", "weights", "curves", "slide", "statistics", "opening", "redo"]
     assert ids("", recent=["layout", "f-ah", "gone"]) == ["layout", "f-ah", *others]
 
 
