@@ -148,4 +148,6 @@ def _check_length(path: Path, seconds: float) -> None:
 
 def _short(error: Exception) -> str:
     text = str(error).split(": ", 1)[-1] if "Error opening" in str(error) else str(error)
+    if "possibly a pipe" in text:  # libsndfile's word for an mp3 without a single frame
+        text = "no sound was found in it"
     return shown(text.strip().rstrip("."), 80) or "damaged"

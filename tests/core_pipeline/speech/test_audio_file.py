@@ -96,6 +96,14 @@ def test_what_is_no_recording_is_one_sentence(tmp_path, name, data):
     assert "\n" not in str(told.value)
 
 
+def test_an_mp3_that_is_all_tag_is_not_called_missing(tmp_path):
+    path = tmp_path / "a.mp3"
+    soundfile.write(path, TONE, RATE)
+    path.write_bytes(b"ID3\x03\0\0\x7f\x7f\x7f\x7f" + path.read_bytes())  # a tag longer than the file
+    with pytest.raises(UserError, match="no sound was found in it"):
+        read_audio(path)
+
+
 def test_missing_folders_and_empty_sounds_are_refused(tmp_path):
     with pytest.raises(UserError, match="Cannot read"):
         read_audio(tmp_path / "none.wav")
