@@ -60,8 +60,8 @@ def _welded(face: Face) -> NDArray[np.intp]:
     """(n,) numbers, equal for vertices that are at the same place in every pose: lips that only touch are two."""
     groups = seam_groups(face.positions)
     _, first = np.unique(groups, return_index=True)
-    model = first[groups]
-    parts = np.zeros(len(model), bool)
-    for delta in face.deltas:
-        parts |= (delta != delta[model]).any(axis=1)
-    return np.where(parts, np.arange(len(model)), model)
+    number = first[groups]
+    twins = np.flatnonzero(number != np.arange(len(number)))
+    parted = (face.deltas[:, twins] != face.deltas[:, number[twins]]).any(axis=(0, 2))
+    number[twins[parted]] = twins[parted]
+    return number
