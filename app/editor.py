@@ -94,6 +94,7 @@ def run_editor(file: Path | None, sentence: str | None, face: str | None) -> int
     state = ViewState()
     _catch_everything(state.folder)
     editor = Editor(curve_set_json.load(curves_of(face_at)), state)
+    editor.window.fit_screen()
     editor.wiring.restore()
     if face is not None:
         editor.wiring.character.open(face_at)

@@ -16,6 +16,7 @@ from core_pipeline.files.smartbody_script import Script, many, read_script
 from core_pipeline.files.smartbody_write import script as script_of
 from core_pipeline.weights import bake
 
+from . import resources
 from .file_actions import FileActions
 from .session import Session
 
@@ -89,9 +90,10 @@ class Exchange(QObject):
             return
         rows = [path for path in (self._document.path,) if path is not None]
         names = [*(str(path) for path in rows), *built_in()]
+        likely = 0 if rows else names.index(resources.english_curves().stem)
         title = self.tr("New Character Set")
         base, chosen = QInputDialog.getItem(
-            self._files.window, title, self.tr("Only what differs from this set is stored:"), names, 0, False
+            self._files.window, title, self.tr("Only what differs from this set is stored:"), names, likely, False
         )
         if not chosen:
             return

@@ -61,8 +61,8 @@ PRESETS: Mapping[str, Preset] = MappingProxyType(
             (("mapping",),),
             (("preview",), ("weights",)),
             (),
-            wide=(420, 760),
-            quarters=1.9,
+            wide=(400, 620),
+            quarters=1.5,
         ),
         "curves": Preset(str(QT_TRANSLATE_NOOP("Layouts", "&Curves Only")), bottom=()),
     }

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import QByteArray, QEvent, Qt, QTimer, Signal
+from PySide6.QtCore import QByteArray, QEvent, QMargins, Qt, QTimer, Signal
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeyEvent, QPalette, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QDockWidget,
@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
     QMainWindow,
     QSizePolicy,
     QSplitter,
+    QStyle,
     QToolBar,
     QVBoxLayout,
     QWidget,
@@ -158,14 +159,20 @@ class MainWindow(QMainWindow):
             self.use_layout(self._layout)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """A window made low puts its docks behind one another."""
+        """A window made low puts its docks behind one another, and made high again side by side."""
         super().resizeEvent(event)
-        if self._sized and event.size().height() < LOW <= event.oldSize().height():
+        if self._sized and (event.size().height() < LOW) != (event.oldSize().height() < LOW):
             mapping = self.mapping_dock.toggleViewAction().isChecked()
             self.use_layout(self._layout)
             if mapping:
                 self.mapping_dock.show()
                 self.mapping_dock.raise_()
+
+    def fit_screen(self) -> None:
+        """No larger than the screen leaves free, with a title bar above: the status bar stays in sight."""
+        free = self.screen().availableSize()
+        title = self.style().pixelMetric(QStyle.PixelMetric.PM_TitleBarHeight)
+        self.resize(self.size().boundedTo(free.shrunkBy(QMargins(0, title, 0, 0))))
 
     def restore_layout(self, geometry: QByteArray, docks: QByteArray) -> None:
         """Last time's layout, as far as it still fits."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, Signal
 
 from core_pipeline.curve_set import CurveSet
 from core_pipeline.errors import UserError
@@ -52,7 +52,12 @@ def _find(wish: tuple[CurveSet, tuple[str, ...]], is_old: Callable[[], bool]) ->
 
 
 class Carrier(QObject):
-    """Says the carrier word of a bigram and the pinned sentences that have it, looping, unless it is switched off."""
+    """Says the carrier word of a bigram and the pinned sentences that have it, looping, unless it is switched off.
+
+    known()  which words have which bigrams
+    """
+
+    known = Signal()
 
     def __init__(self, parts: Parts, sentence: Sentence, parent: QObject) -> None:
         super().__init__(parent)
@@ -72,6 +77,7 @@ class Carrier(QObject):
         )
         self.action.toggled.connect(lambda on: self._state.put("carrier words", on))
         self._window.picker.picked.connect(self.say)
+        self._window.sentence_bar.field.textEdited.connect(self._forget)
         self._session.stages_changed.connect(self._spoken)
 
     def close(self) -> None:
@@ -80,7 +86,7 @@ class Carrier(QObject):
 
     def say(self, pair: Pair) -> None:
         """Loop what has this bigram, if the sentence has not."""
-        self._wanted = self._saying = None
+        self._forget()
         if not self.action.isChecked() or pair in self._session.used():
             return
         curve_set, pinned = self._document.curve_set, self._sentence.pinned.texts
@@ -91,15 +97,20 @@ class Carrier(QObject):
             return
         self._try(pair, known.words.get(pair, ()), [text for text, pairs in known.pairs.items() if pair in pairs])
 
+    def _forget(self) -> None:
+        """What the user types is never overwritten by a word that was looked for before."""
+        self._wanted = self._saying = None
+
     def _found(self, carriers: Carriers) -> None:
         self._carriers = carriers
         if self._wanted is not None:
             self.say(self._wanted)
+        self.known.emit()
 
     def _try(self, pair: Pair, words: tuple[str, ...], pinned: list[str]) -> None:
         texts = [*(f"{word.capitalize()}." for word in words[:1]), *pinned[:PINNED]]
         if not texts:
-            self._window.hint_label.setText(self.tr("No word of the dictionary has this bigram"))
+            self._window.hint_label.setText(self.tr("No word of the dictionary has this bigram in this voice"))
             return
         text = " ".join(texts)
         self._saying = pair, text, words[1:]
@@ -114,5 +125,5 @@ class Carrier(QObject):
         pair, text, others = self._saying
         if utterance.text == text:
             self._saying = None
-            if pair not in stages.schedule.pairs() and others:
+            if pair not in stages.schedule.pairs():
                 self._try(pair, others, [])

@@ -106,10 +106,11 @@ class Recording(QObject):
         return True
 
     def open(self, path: Path) -> None:
-        """Read a recording; it is played as it is until its words are known."""
+        """Read a recording; it is played as it is until its words are known: what is typed next are those."""
         if not self.may_discard():
             return
         self._show()
+        self._panel.transcript.setFocus()
         self._state.put("recordings", str(path.parent))
         self._panel.set_message(self.tr("Reading {0} …").format(path.name))
         self.hearing.open(path)

@@ -107,7 +107,7 @@ def test_a_set_goes_out_as_a_script_and_comes_back(exchange: Exchange, tmp_path:
 def test_a_characters_set_stores_what_differs_and_goes_out_whole(
     exchange: Exchange, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(QInputDialog, "getItem", lambda *_: ("english", True))
+    monkeypatch.setattr(QInputDialog, "getItem", lambda *asked: (asked[3][asked[4]], True))  # what it proposes
     monkeypatch.setattr(QInputDialog, "getText", lambda *_: ("Hero", True))
     exchange.ask_new_on_base()
     document = exchange._document

@@ -45,6 +45,7 @@ def open_and_align(editor: Editor, qtbot: QtBot, wav: Path) -> None:
     hearing, panel = editor.wiring.speech_in.recording.hearing, editor.window.recording_panel
     with qtbot.waitSignal(hearing.opened, timeout=20_000):
         drop(editor, wav)
+    assert editor.window.focusWidget() is panel.transcript
     QTest.keyClicks(panel.transcript, TEXT)
     with qtbot.waitSignal(hearing.aligned, timeout=60_000):
         QTest.mouseClick(panel.align, Qt.MouseButton.LeftButton)

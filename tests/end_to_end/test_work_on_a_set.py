@@ -189,6 +189,17 @@ def test_a_pinned_sentence_that_has_the_bigram_is_said_after_the_word(editor: Ed
     assert editor.window.sentence_bar.sentence == said
 
 
+def test_a_word_that_is_found_late_leaves_alone_what_is_typed_meanwhile(editor: Editor, qtbot: QtBot) -> None:
+    say(editor, qtbot, "Oh.")
+    carrier, bar = editor.wiring.carrier, editor.window.sentence_bar
+    grid = editor.window.picker.grid
+    with qtbot.waitSignal(carrier.known, timeout=30_000):
+        QTest.mouseClick(grid.viewport(), Qt.MouseButton.LeftButton, pos=grid.rect_of(("ah", "r")).center())
+        bar.field.selectAll()
+        QTest.keyClicks(bar.field, "Find fish.")
+    assert bar.sentence == "Find fish."
+
+
 def test_a_whole_text_is_read_ranked_and_opened_at_the_sentence(editor: Editor, qtbot: QtBot, tmp_path: Path) -> None:
     say(editor, qtbot, "Oh.")
     script = tmp_path / "script.txt"

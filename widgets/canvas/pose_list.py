@@ -14,6 +14,8 @@ NAME, EYE, LOCK, SOLO = range(4)
 
 _ROW = 24
 _SWATCH = 12
+#: Pixels of a row that the name does not have, and of the widest list that insists on whole names.
+_BESIDE, _WIDEST = 110, 230
 
 
 class PoseList(QTreeWidget):
@@ -74,6 +76,7 @@ class PoseList(QTreeWidget):
             "together": theme.icon("alpha-s-box-outline", theme.BORDER),
         }
         self.currentItemChanged.connect(self._pick)
+        self.setTextElideMode(Qt.TextElideMode.ElideMiddle)  # names differ at their ends: tongue up, tongue out
         self.setMinimumWidth(120)
 
     # Values come down
@@ -89,6 +92,7 @@ class PoseList(QTreeWidget):
         for item in self._items.values():
             item.setSizeHint(NAME, QSize(60, _ROW))
         self.addTopLevelItems(list(self._items.values()))
+        self.setMinimumWidth(max(120, min(self._longest() + _BESIDE, _WIDEST)))
         self._refresh()
         self.set_active(active)
 
@@ -123,8 +127,11 @@ class PoseList(QTreeWidget):
 
     def sizeHint(self) -> QSize:
         """Wide enough for the names and both icons, tall enough for every pose."""
-        names = max((self.fontMetrics().horizontalAdvance(pose) for pose in self._poses), default=60)
-        return QSize(max(150, names + _SWATCH + 120), _ROW * max(3, len(self._poses)) + 4)
+        return QSize(max(150, self._longest() + _SWATCH + 120), _ROW * max(3, len(self._poses)) + 4)
+
+    def _longest(self) -> int:
+        """Pixels of the longest name."""
+        return max((self.fontMetrics().horizontalAdvance(pose) for pose in self._poses), default=60)
 
     def _refresh(self) -> None:
         for index, (pose, item) in enumerate(self._items.items()):

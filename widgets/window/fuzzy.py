@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 #: A letter that fits counts 1; more when it begins a word, follows the one before, or begins the text.
-_WORD, _NEXT, _FIRST = 8.0, 5.0, 4.0
+_WORD, _NEXT, _FIRST = 8.0, 8.0, 4.0
 #: Each letter of the text that is left over costs a little, so that the shorter of two texts wins.
 _LEFT_OVER = 0.05
 

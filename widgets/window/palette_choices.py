@@ -84,7 +84,7 @@ def _by_title(query: str, choice: Choice) -> tuple[float, tuple[int, ...]] | Non
         whole = query.strip().casefold() == choice.title.casefold()
         return own.score + (_EXACT if whole else 0.0), own.places
     first, _, rest = query.strip().partition(" ")
-    if not choice.group.casefold().startswith(first.casefold()):
+    if not any(word.startswith(first.casefold()) for word in choice.group.casefold().split()):
         return None
     inner = fit(rest, choice.title)
     return None if inner is None else (inner.score + _BY_GROUP, inner.places)

@@ -137,3 +137,13 @@ def test_s_makes_the_current_pose_solo(qtbot, poses):
     with qtbot.waitSignal(poses.solo_wanted) as wish:
         qtbot.keyClick(poses, Qt.Key.Key_S)
     assert wish.args == [{"FV"}]
+
+
+def test_names_stay_whole_in_the_narrowest_list(poses):
+    names = ("mouth open", "tongue up", "tongue back")
+    poses.set_poses(names)
+    poses.resize(poses.minimumWidth(), 200)
+    longest = max(poses.fontMetrics().horizontalAdvance(name) for name in names)
+    assert poses.columnWidth(NAME) >= longest + poses.iconSize().width()
+    poses.set_poses(("x" * 500,))
+    assert poses.minimumWidth() < 300

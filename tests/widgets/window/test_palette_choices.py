@@ -11,7 +11,10 @@ COMMANDS = [
     Choice("open", "Open", "File"),
     Choice("weights", "Export Weights", "File"),
     Choice("curves", "Export Curve Set", "File"),
+    Choice("slide", "Slide to another version", "Canvas"),
+    Choice("statistics", "Corpus Statistics", "Tools"),
     Choice("layout", "Reset Layout", "View"),
+    Choice("opening", "The Version at Opening", "Tools → Compare With"),
     Choice("redo", "Redo", "Edit", enabled=False),
 ]
 PHONES = ("ah", "aa", "f", "t", "th", "h")
@@ -44,9 +47,12 @@ def test_a_title_typed_whole_is_first(title):
     ("query", "first"),
     [
         ("exw", "weights"),
+        ("stat", "statistics"),
+        ("stav", "slide"),
         ("expcur", "curves"),
         ("RESET", "layout"),
         ("view lay", "layout"),
+        ("compare", "opening"),
         ("f ah", "f-ah"),
         ("F-AH", "f-ah"),
         ("fah", "f-ah"),
@@ -66,7 +72,8 @@ def test_the_first_phone_alone_finds_its_row():
 
 
 def test_without_a_query_the_recent_come_first_and_bigrams_only_when_recent():
-    assert ids("", recent=["layout", "f-ah", "gone"]) == ["layout", "f-ah", "open", "weights", "curves", "redo"]
+    others = ["open", "weights", "curves", "slide", "statistics", "opening", "redo"]
+    assert ids("", recent=["layout", "f-ah", "gone"]) == ["layout", "f-ah", *others]
 
 
 def test_of_two_that_fit_alike_the_recent_one_is_first():
