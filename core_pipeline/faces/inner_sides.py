@@ -26,8 +26,8 @@ class InnerSides:
         for name in face.closed:
             first, count = face.parts[name]
             self.may_show[first : first + count] = False
-        low, high = (bound(face.positions, axis=0, initial=0.0) for bound in (np.min, np.max))
-        self._before = float(high[2] + _AIR * np.linalg.norm(high - low))
+        size = np.linalg.norm(np.ptp(face.positions, axis=0))
+        self._before = float(face.positions[:, 2].max() + _AIR * size)
 
     def hidden_from(self, from_mesh: NDArray[np.float64]) -> bool:
         """Whether the camera with this (4, 4) matrix stands in front of the face: outside, and not behind its hair."""
@@ -46,7 +46,7 @@ def _closed_bodies(face: Face) -> NDArray[np.bool_]:
     bodies, body = connected_components(links, directed=False)
     there, back = np.sort(starts * count + ends), np.sort(ends * count + starts)
     once = np.diff(there, prepend=-1) > 0
-    open_edges = there[~(once & np.isin(there, back, assume_unique=False))] // max(count, 1)
+    open_edges = there[~(once & np.isin(there, back))] // max(count, 1)
     closed = np.ones(bodies, bool)
     closed[body[open_edges]] = False
     corner = face.positions[face.triangles].astype(np.float64)
@@ -60,8 +60,8 @@ def _welded(face: Face) -> NDArray[np.intp]:
     """(n,) numbers, equal for vertices that are at the same place in every pose: lips that only touch are two."""
     groups = seam_groups(face.positions)
     _, first = np.unique(groups, return_index=True)
-    model = first[groups]
-    parts = np.zeros(len(model), bool)
-    for delta in face.deltas:
-        parts |= (delta != delta[model]).any(axis=1)
-    return np.where(parts, np.arange(len(model)), model)
+    number = first[groups]
+    twins = np.flatnonzero(number != np.arange(len(number)))
+    parted = (face.deltas[:, twins] != face.deltas[:, number[twins]]).any(axis=(0, 2))
+    number[twins[parted]] = twins[parted]
+    return number

@@ -6,6 +6,7 @@ Only `render` imports this module, and late: importing it loads OpenGL, which ma
 from __future__ import annotations
 
 import math
+import weakref
 from collections.abc import Collection
 from pathlib import Path
 from typing import Any
@@ -132,8 +133,9 @@ class FaceGL(Renderer):  # type: ignore[misc]
         if self._drawn == len(self._shadows):
             self._shadows.append(ShadowMap())
         shadow = self._shadows[self._drawn]
-        if not shadow.usable((mesh, to_light.tobytes(), cut)) or fresh_shadow:
-            shadow.begin((mesh, to_light.tobytes(), cut))
+        cast = (weakref.ref(mesh), to_light.tobytes(), cut)
+        if not shadow.usable(cast) or fresh_shadow:
+            shadow.begin(cast)
             GL.glFrontFace(GL.GL_CCW)
             GL.glCullFace(GL.GL_BACK)
             GL.glEnable(GL.GL_DEPTH_CLAMP)  # what is nearer to the light than the map reaches casts, too

@@ -85,6 +85,16 @@ def test_amounts_of_another_face_are_refused():
         Blend(BALL).mixed(np.zeros(3))
 
 
+@pytest.mark.parametrize("moved", [[], [0], [70, 400], [-1]])
+def test_a_shape_that_moves_few_vertices_or_none(moved):
+    deltas = np.zeros_like(BALL.deltas)
+    deltas[0, moved] = (0.1, -0.2, 0.3)
+    face = replace(BALL, deltas=deltas, normal_deltas=np.zeros_like(deltas))
+    both = Blend(face).mixed(np.array([0.5, 0.0], np.float32))
+    np.testing.assert_allclose(both[:, :3], face.deform(np.array([0.5, 0.0])), atol=1e-6)
+    np.testing.assert_array_equal(both[:, 3:], BALL.normals)
+
+
 @pytest.mark.parametrize("active", [1, 16, 17, 40])
 def test_few_or_many_active_shapes_are_the_same_sum(active):
     deltas = np.random.default_rng(active).normal(0, 0.1, (40, len(BALL.positions), 3)).astype(np.float32)
