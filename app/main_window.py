@@ -52,6 +52,8 @@ from .focus_ring import FocusRing
 from .layouts import AUTHOR, LOW, arrange
 
 _Area = Qt.DockWidgetArea
+#: Pixels across that the canvas keeps when pose names want room.
+_CANVAS = 320
 
 
 class MainWindow(QMainWindow):
@@ -183,6 +185,13 @@ class MainWindow(QMainWindow):
         """One of layouts.PRESETS, for this window's size."""
         self._layout = name
         arrange(self, name, self._homes, self._hidden)
+
+    def fit_poses(self) -> None:
+        """As much room for the names of the poses as the canvas can spare."""
+        poses, canvas, *others = self._canvases.sizes()
+        more = min(self.pose_list.sizeHint().width() - poses, canvas - _CANVAS)
+        if more > 0:
+            self._canvases.setSizes([poses + more, canvas - more, *others])
 
     def show_beside(self, on: bool) -> None:
         """One canvas, or two of the same width; Space plays where there is no room for the button."""
