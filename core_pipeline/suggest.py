@@ -34,6 +34,8 @@ Ints = NDArray[np.intp]
 SAMPLES = 21
 #: With fewer drawn bigrams than this, the prior set is the mean.
 FEW = 40
+#: Pairs with silence are suggested too where so many are drawn on that side of it.
+EDGES = 4
 #: What the method adds to the diagonal: how far drawings scatter.
 NOISE = 0.02
 #: A suggested value below this is rest, a suggested curve that stays below PEAK is none.
@@ -168,15 +170,27 @@ def is_drawn(bigram: Bigram) -> bool:
 
 
 def fill(curve_set: CurveSet, prior: CurveSet | None = None) -> dict[Pair, Bigram]:
-    """A suggestion for every pair of the set's phonemes that is missing or empty. Notes and what is drawn stay."""
+    """A suggestion for every pair of the set's phonemes that is missing or empty. Notes and what is drawn stay.
+
+    Also for pairs with silence before (or after), where the set draws EDGES of them.
+    """
     suggestions = Suggestions.of(curve_set, prior).prepared()
     filled = {}
-    for pair in ((a, b) for a in curve_set.phonemes for b in curve_set.phonemes):
+    for pair in _wanted(curve_set):
         old = curve_set.bigrams.get(pair)
         if old is None or old.is_empty:
             new = suggestions.bigram(pair)
             filled[pair] = new if old is None else replace(new, note=old.note, extra=old.extra)
     return filled
+
+
+def _wanted(curve_set: CurveSet) -> list[Pair]:
+    phonemes = curve_set.phonemes
+    pairs = [(a, b) for a in phonemes for b in phonemes]
+    for side in ([(SILENCE, phone) for phone in phonemes], [(phone, SILENCE) for phone in phonemes]):
+        if sum(is_drawn(curve_set.bigrams.get(pair, Bigram())) for pair in side) >= EDGES:
+            pairs += side
+    return pairs
 
 
 @lru_cache(maxsize=4096)

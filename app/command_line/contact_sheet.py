@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -15,11 +15,12 @@ from core_pipeline.faces.looks import ANGLES, Look
 from core_pipeline.faces.view import View
 from core_pipeline.files import curve_set_json
 from core_pipeline.files.json_text import shown
-from core_pipeline.poses import MEANING, TONGUE_OPEN, of_tongue
 
 from ..rigs import curves_of, face_path, is_ours, open_rig
 from .frames import FaceFrames, save_png
+from .line_up import line_up
 from .look_options import look_of
+from .posed import Pose, poses_of
 from .progress import Progress
 
 COLUMNS = 3
@@ -30,8 +31,6 @@ _MARGIN, _GAP, _SEAM = 20, 18, 2
 _TITLE, _LABEL = 26, 15
 _PAPER, _INK, _FAINT = (27, 29, 33), (226, 229, 234), (138, 145, 156)
 
-Pose = tuple[str, str, Mapping[str, float]]  # name, what is said beside it, shape → amount
-
 
 def contact_sheet(options: argparse.Namespace) -> int:
     """Draw the sheet of the face the options name."""
@@ -39,8 +38,6 @@ def contact_sheet(options: argparse.Namespace) -> int:
     if out.suffix.lower() != ".png":
         raise UserError(f"Cannot tell the format of {out}: name the picture .png.")
     if options.face == "all":
-        from .line_up import line_up
-
         return line_up(options)
     if options.portraits:
         raise UserError("--portraits shows our characters together: write contact-sheet all --portraits.")
@@ -53,25 +50,6 @@ def contact_sheet(options: argparse.Namespace) -> int:
     save_png(sheet(face, shown_poses, options.size, look_of(options)), out)
     print(f"{len(shown_poses)} poses of {shown(face.title, 200)} in {out}")
     return 0
-
-
-def poses_of(face: Face, poses: Sequence[str], *, idle: bool) -> list[Pose]:
-    """What is shown, in order: the neutral face, the poses of a set, and with `idle` the shapes that are in no pose."""
-    jaw = next((pose for pose in poses if "open" in pose.casefold()), None)
-    found: list[Pose] = [("neutral", "", {})]
-    for pose in poses:
-        mix, note = face.mix(pose), MEANING.get(pose, "")
-        if not mix:
-            note = "not available on this face"
-        elif jaw is not None and of_tongue(pose):
-            opened = {shape: TONGUE_OPEN * amount for shape, amount in face.mix(jaw).items()}
-            mix = {shape: opened.get(shape, 0) + mix.get(shape, 0) for shape in (*opened, *mix)}
-            note = f"{note}; " * bool(note) + f"with {jaw} {TONGUE_OPEN:g}"
-        found.append((pose, note, mix))
-    if idle:
-        used = {shape for pose in poses for shape in face.mix(pose)}
-        found += [(shape, "", {shape: 1.0}) for shape in face.shapes if shape not in used]
-    return found
 
 
 def sheet(face: Face, poses: Sequence[Pose], size: tuple[int, int], look: Look | None = None) -> Image.Image:

@@ -35,7 +35,8 @@ def fit(options: argparse.Namespace) -> int:
 
     ending = ".json" if options.method == "bigrams" else ".npz"
     if options.out.suffix.lower() != ending:
-        raise UserError(f"{options.out} should end in {ending}: that is what {options.method} are saved as.")
+        what = "a learned set" if ending == ".json" else "a model"
+        raise UserError(f"{options.out} should end in {ending}: that is what {what} is saved as.")
     if options.hold_out < 0 or options.hold_out == 1:
         raise UserError("--hold-out 1 would keep every clip: choose 2 or more, such as 5 for every fifth.")
     like = curve_set_json.read(options.curves or resources.english_curves()).curve_set

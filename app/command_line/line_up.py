@@ -15,8 +15,8 @@ from core_pipeline.files import curve_set_json
 
 from .. import resources
 from ..rigs import curves_of, open_rig
-from .contact_sheet import poses_of
 from .frames import FaceFrames, save_png
+from .posed import poses_of
 from .progress import Progress
 
 #: Degrees beside the face's own camera: enough to see lips from the side, little enough to see both corners.

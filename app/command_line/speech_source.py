@@ -8,7 +8,8 @@ from core_pipeline.curve_set import CurveSet
 from core_pipeline.errors import UserError
 from core_pipeline.files.json_text import shown
 from core_pipeline.phonemes import SILENCE, TABLE_1
-from core_pipeline.speech.espeak import ALL_VOICES
+from core_pipeline.speech.audio_file import FASTEST_RATE, SLOWEST_RATE
+from core_pipeline.speech.espeak import voice_named
 from core_pipeline.speech.intake import Source
 
 from .. import resources
@@ -17,12 +18,16 @@ from ..phoneme_maps import applied
 
 def source_of(options: argparse.Namespace) -> Source:
     """What `bake` was asked to say. UserError for an assignment that is none."""
+    if options.label_rate is not None and not SLOWEST_RATE <= options.label_rate <= FASTEST_RATE:
+        raise UserError(
+            f"--label-rate {options.label_rate} is no rate of recordings: choose {SLOWEST_RATE} to {FASTEST_RATE}."
+        )
     return Source(
         text=options.text or "",
         audio=options.audio,
         transcript=options.transcript or "",
         labels=options.labels,
-        voice=_voice(options.voice),
+        voice=voice_named(options.voice),
         rate=options.rate,
         pitch=options.pitch,
         label_rate=options.label_rate,
@@ -35,15 +40,6 @@ def with_map(curve_set: CurveSet, name: str | None) -> CurveSet:
     if name is None:
         return curve_set
     return applied(curve_set, resources.phoneme_map(name))
-
-
-def _voice(name: str) -> str:
-    """A voice's name, or what people call it."""
-    short = {"british": "gmw/en", "american": "en-us", "mandarin": "sit/cmn"}
-    voice = short.get(name.lower(), name)
-    if voice not in ALL_VOICES:
-        raise UserError(f"There is no voice “{shown(name)}”: choose one of {', '.join([*ALL_VOICES, *short])}.")
-    return voice
 
 
 def _assignment(text: str) -> tuple[str, str]:

@@ -71,12 +71,15 @@ def read(file: Path) -> Kept:
     if head.get("schema") != SCHEMA or not isinstance(head.get("set"), str):
         raise UserError(f"{file} is no journal of Lipstitch: choose another file.")
     path = Path(head["path"]) if isinstance(head.get("path"), str) else None
-    curve_set = _first(head["set"].encode(), file, path.parent if path is not None else None)
+    curve_set = _first(_bytes(head["set"]), file, path.parent if path is not None else None)
     for line in lines:
         text, gone = line.get("set"), line.get("gone")
         if not (isinstance(text, str) and isinstance(gone, list)):
             break
-        changed = curve_set_json.parse(text.encode(), str(file)).curve_set
+        try:
+            changed = curve_set_json.parse(_bytes(text), str(file)).curve_set
+        except UserError:  # a damaged line: what was written before it counts
+            break
         for pair, bigram in changed.bigrams.items():
             curve_set = curve_set.with_bigram(pair, bigram)
         for name in gone:
@@ -91,8 +94,8 @@ def _first(data: bytes, file: Path, folder: Path | None) -> CurveSet:
     try:
         return curve_set_json.parse(data, str(file), folder).curve_set
     except UserError:
-        top = json.loads(data)
-        if not (isinstance(top, dict) and top.pop("base", None)):
+        top = next(_lines(data + b"\n"), {})
+        if not top.pop("base", None):
             raise
         return curve_set_json.parse(json.dumps(top).encode(), str(file)).curve_set
 
@@ -107,6 +110,11 @@ def _lines(data: bytes) -> Iterator[dict[str, Any]]:
         if not isinstance(value, dict):
             return
         yield value
+
+
+def _bytes(text: str) -> bytes:
+    """For the reader of sets, which refuses half a character."""
+    return text.encode("utf-8", "surrogatepass")
 
 
 def _text(curve_set: CurveSet) -> str:

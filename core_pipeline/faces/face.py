@@ -36,6 +36,7 @@ class Face:
     pose_map       pose → {shape: amount}; empty for a face whose shapes are the poses
     expressions    what the rig's author made of its shapes (VRM), expression → {shape: amount}
     parts          name → (first triangle, number of triangles), so that checks can tell teeth from skin
+    closed         the parts that show no inner side to someone in front; ValueError when one is no part
     """
 
     name: str
@@ -50,7 +51,12 @@ class Face:
     pose_map: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     expressions: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     parts: Mapping[str, tuple[int, int]] = field(default_factory=dict)
+    closed: frozenset[str] = frozenset()
     camera: Camera = Camera()
+
+    def __post_init__(self) -> None:
+        if not self.closed <= set(self.parts):
+            raise ValueError(f"no parts of this face: {sorted(self.closed - set(self.parts))}")
 
     def mix(self, pose: str) -> Mapping[str, float]:
         """The shapes that make up a pose, shape → amount; empty when this face cannot make it."""

@@ -37,6 +37,7 @@ def save(face: Face, folder: str | Path) -> None:
         "camera": asdict(face.camera),
         "pose_map": {pose: dict(mix) for pose, mix in face.pose_map.items()},
         "parts": {name: list(part) for name, part in face.parts.items()},
+        "closed": [name for name in face.parts if name in face.closed],
     }
     try:
         place.mkdir(parents=True, exist_ok=True)
@@ -78,16 +79,21 @@ def _described(face: Face, path: Path, about: dict[str, Any]) -> Face:
             for pose, mix in about.get("pose_map", {}).items()
         }
         parts = {str(name): (int(first), int(count)) for name, (first, count) in about.get("parts", face.parts).items()}
+        closed = frozenset(map(str, about.get("closed", ())))
     except (TypeError, ValueError, AttributeError):
-        raise UserError(f"{path}: its camera, pose_map or parts are not as they should be; restore the file.") from None
+        raise UserError(
+            f"{path}: its camera, pose_map, parts or closed are not as they should be; restore the file."
+        ) from None
     unknown = sorted({shape for mix in pose_map.values() for shape in mix} - set(face.shapes))
     if unknown:
         raise UserError(f"{path}: the pose map uses shapes the face does not have: {', '.join(unknown)}.")
     for name, (first, count) in parts.items():
         if first < 0 or count < 0 or first + count > len(face.triangles):
             raise UserError(f"{path}: part “{name}” lies outside the face's {len(face.triangles):,} triangles.")
+    if not closed <= set(parts):
+        raise UserError(f"{path}: it has no parts to be closed named {', '.join(sorted(closed - set(parts)))}.")
     title = str(about.get("title") or face.name)
-    return replace(face, title=title, camera=camera, pose_map=pose_map, parts=parts)
+    return replace(face, title=title, camera=camera, pose_map=pose_map, parts=parts, closed=closed)
 
 
 def _camera_value(key: str, value: Any) -> Any:

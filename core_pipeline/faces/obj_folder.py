@@ -152,7 +152,10 @@ class _Obj:
         """(m, 3): polygons cut into fans."""
         plain = _AFTER_SLASH.sub(b"", self._faces).replace(b"\t", b" ")
         sizes = np.array([len(line.split()) for line in plain.split(b"\n") if line.strip()], np.int64)
-        corners = self._numbers(plain, "faces").astype(np.int64)
+        numbers = self._numbers(plain, "faces")
+        if not (np.abs(numbers) <= MAX_VERTICES).all():
+            raise self.fail(f"a face uses a vertex beyond the first {MAX_VERTICES:,}; the file is damaged.")
+        corners = numbers.astype(np.int64)
         if not len(sizes) or sizes.min() < 3 or sizes.sum() != len(corners):
             raise self.fail("it has no faces, or some with fewer than three corners; export it as a mesh.")
         count = len(self.vertices)

@@ -68,8 +68,8 @@ class Renderer:
 
         figures       each in its place of `view.places`; the same face may stand in several
         size          (w, h) in pixels
-        full_quality  smooth edges and the exact normals of the moved triangles; without, blended normals,
-                      and smooth edges only on a graphics card
+        full_quality  smooth edges, the exact normals of the moved triangles, and their shadow; without, blended
+                      normals, a shadow up to two pictures old, and smooth edges only on a graphics card
         Raises UserError when this machine cannot draw.
         """
         try:
@@ -112,7 +112,7 @@ class Renderer:
                 self._blends[face] = Blend(face), float(np.linalg.norm(face.positions, axis=1).max(initial=0.0))
             blend, radius = self._blends[face]
             vertices = blend.exact(figure.amounts) if full_quality else blend.mixed(figure.amounts)
-            self._gl.add(face, vertices, figure.view.fitted(place[2:]), radius, place, look)
+            self._gl.add(face, vertices, figure.view.fitted(place[2:]), radius, place, look, full_quality)
         return self._gl.finish(look.background)
 
 

@@ -69,7 +69,7 @@ class FaceGL(Renderer):  # type: ignore[misc]
         self._pixels: NDArray[np.uint8] = np.empty((0, 0, 4), np.uint8)
         self._meshes: dict[Face, FaceMesh] = {}
         self._samples = 0
-        self._shadow = ShadowMap()
+        self._shadows: list[ShadowMap] = []  # one of each place of the picture
         self._no_vertices = GL.glGenVertexArrays(1)
         self._most_samples = int(GL.glGetIntegerv(GL.GL_MAX_SAMPLES))
         self._largest = int(GL.glGetIntegerv(GL.GL_MAX_RENDERBUFFER_SIZE))
@@ -88,17 +88,22 @@ class FaceGL(Renderer):  # type: ignore[misc]
         GL.glDisable(GL.GL_BLEND)
         GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, self._target.name)
         GL.glClear(GL.GL_DEPTH_BUFFER_BIT)
+        self._drawn = 0
 
-    def add(self, face: Face, vertices: Floats, view: View, radius: float, place: Place, look: Look) -> None:
+    def add(
+        self, face: Face, vertices: Floats, view: View, radius: float, place: Place, look: Look, fresh_shadow: bool
+    ) -> None:
         """Draw a face into (x, y, w, h) of the picture; nothing of it comes to stand outside.
 
-        vertices  (n, 6), at rest within `radius` of the origin
+        vertices      (n, 6), at rest within `radius` of the origin
+        fresh_shadow  the shadow is that of these vertices; else perhaps of those a few pictures ago
         """
         if face not in self._meshes:
             self._meshes[face] = FaceMesh(face)
         mesh = self._meshes[face]
         mesh.update(vertices)
-        self._draw_mesh(mesh, view, radius, place, look)
+        self._draw_mesh(mesh, view, radius, place, look, fresh_shadow)
+        self._drawn += 1
 
     def forget(self, but: Collection[Face]) -> None:
         """Free the meshes of all other faces."""
@@ -112,7 +117,9 @@ class FaceGL(Renderer):  # type: ignore[misc]
         self._draw_backdrop(background)
         return self._read()
 
-    def _draw_mesh(self, mesh: FaceMesh, view: View, radius: float, place: Place, look: Look) -> None:
+    def _draw_mesh(
+        self, mesh: FaceMesh, view: View, radius: float, place: Place, look: Look, fresh_shadow: bool
+    ) -> None:
         from_mesh = view.matrix()
         reach = shadow_reach(view, radius)
         key_from = _unit(look.light.key_from)
@@ -122,31 +129,37 @@ class FaceGL(Renderer):  # type: ignore[misc]
         GL.glEnable(GL.GL_CLIP_DISTANCE0)
         GL.glEnable(GL.GL_CULL_FACE)
 
-        self._shadow.begin()
-        GL.glFrontFace(GL.GL_CCW)
-        GL.glCullFace(GL.GL_BACK)
-        GL.glEnable(GL.GL_DEPTH_CLAMP)  # what is nearer to the light than the map reaches casts, too
-        program = self._program("shadow")
-        self._set_matrix(program, "to_light", to_light)
-        mesh.draw(cut, self._location(program, "cut"))
-        GL.glDisable(GL.GL_DEPTH_CLAMP)
+        if self._drawn == len(self._shadows):
+            self._shadows.append(ShadowMap())
+        shadow = self._shadows[self._drawn]
+        if not shadow.usable((mesh, to_light.tobytes(), cut)) or fresh_shadow:
+            shadow.begin((mesh, to_light.tobytes(), cut))
+            GL.glFrontFace(GL.GL_CCW)
+            GL.glCullFace(GL.GL_BACK)
+            GL.glEnable(GL.GL_DEPTH_CLAMP)  # what is nearer to the light than the map reaches casts, too
+            program = self._program("shadow")
+            self._set_matrix(program, "to_light", to_light)
+            mesh.draw(cut, self._location(program, "cut"))
+            GL.glDisable(GL.GL_DEPTH_CLAMP)
 
         GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, self._target.name)
         GL.glViewport(*place)
         # The picture is drawn upside down, so that the read-back needs no flip: its first row is the top.
         GL.glFrontFace(GL.GL_CW)
         program = self._program("face")
-        self._shadow.bind()
+        shadow.bind()
         self._set_matrix(program, "view", from_mesh)
         self._set_matrix(program, "projection", _UPSIDE_DOWN @ view.projection(place[2:], radius))
         self._set_matrix(program, "to_light", to_light)
         GL.glUniform1f(self._location(program, "off"), SHADOW_OFFSET * reach)
         self._set_light(program, key_from, look.light, look.background)
         # Inner sides are drawn, too: users' rigs have single-sided lashes and hair. But after the outer
-        # sides, which hide most of them before they cost any shading.
-        for culled in (GL.GL_BACK, GL.GL_FRONT):
-            GL.glCullFace(culled)
-            mesh.draw(cut, self._location(program, "cut"))
+        # sides, which hide most of them before they cost any shading; and not of closed bodies seen from the front.
+        GL.glCullFace(GL.GL_BACK)
+        mesh.draw(cut, self._location(program, "cut"))
+        GL.glCullFace(GL.GL_FRONT)
+        shown = view.cutaway or not mesh.inner_sides.hidden_from(from_mesh)
+        mesh.draw(cut, self._location(program, "cut"), closed=shown)
         GL.glDisable(GL.GL_CULL_FACE)
         GL.glDisable(GL.GL_CLIP_DISTANCE0)
 
@@ -178,7 +191,8 @@ class FaceGL(Renderer):  # type: ignore[misc]
         """Free everything on the card."""
         self.forget(())
         self._delete_targets()
-        self._shadow.delete()
+        for shadow in self._shadows:
+            shadow.delete()
         GL.glDeleteVertexArrays(1, [self._no_vertices])
         self._program_cache.clear()
 

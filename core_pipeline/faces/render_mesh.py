@@ -10,6 +10,7 @@ from OpenGL import GL
 from pyrender import MetallicRoughnessMaterial, Primitive
 
 from .face import Face, Floats
+from .inner_sides import InnerSides
 
 _WHOLE = ("tongue",)  # how the names of the parts begin that a cut-away leaves whole
 
@@ -31,7 +32,11 @@ class FaceMesh(Primitive):  # type: ignore[misc]
         whole = np.zeros(len(self.corners), bool)
         for name, (first, count) in face.parts.items():
             whole[first : first + count] = name.startswith(_WHOLE)
-        self._whole, self._cut = _runs(whole), _runs(~whole)  # as (first, count)
+        self.inner_sides = InnerSides(face)
+        may_show = self.inner_sides.may_show
+        # what a cut leaves whole, and the rest, each as runs of (first, count)
+        self._all = _runs(whole), _runs(~whole)
+        self._showing_inside = _runs(whole & may_show), _runs(~whole & may_show)
 
     def _add_to_context(self) -> None:
         self._vaid = GL.glGenVertexArrays(1)
@@ -62,10 +67,10 @@ class FaceMesh(Primitive):  # type: ignore[misc]
         GL.glBindBuffer(GL.GL_ARRAY_BUFFER, self._moving)
         GL.glBufferSubData(GL.GL_ARRAY_BUFFER, 0, vertices.nbytes, vertices)
 
-    def draw(self, cut: float, location: int) -> None:
-        """With the program that is in use, which has its uniform `cut` at `location`."""
+    def draw(self, cut: float, location: int, closed: bool = True) -> None:
+        """With the program that is in use, which has its uniform `cut` at `location`; perhaps without closed bodies."""
         self._bind()
-        for runs, hidden in ((self._whole, 0.0), (self._cut, cut)):
+        for runs, hidden in zip(self._all if closed else self._showing_inside, (0.0, cut), strict=True):
             GL.glUniform1f(location, hidden)
             for first, count in runs:
                 GL.glDrawElements(GL.GL_TRIANGLES, 3 * count, GL.GL_UNSIGNED_INT, ctypes.c_void_p(12 * first))

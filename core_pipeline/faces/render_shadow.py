@@ -11,6 +11,8 @@ from OpenGL import GL
 from .view import View
 
 _SHADOW_SIZE = 512
+#: So many pictures in motion are drawn with one map: its edges are soft, and it lags by 33 ms at most at 60 a second.
+_PICTURES = 3
 
 #: How far above the surface to ask for shadow, in the map's reach: five texels, as the shader reads that far.
 SHADOW_OFFSET = 0.022
@@ -20,6 +22,8 @@ class ShadowMap:
     """How far the key light reaches, as a depth texture that compares when it is read."""
 
     def __init__(self) -> None:
+        self._of: tuple[object, ...] = ()  # what it shows
+        self._pictures = 0  # for which it was used
         self._texture = GL.glGenTextures(1)
         GL.glBindTexture(GL.GL_TEXTURE_2D, self._texture)
         side = _SHADOW_SIZE
@@ -41,8 +45,14 @@ class ShadowMap:
         GL.glDrawBuffer(GL.GL_NONE)
         GL.glReadBuffer(GL.GL_NONE)
 
-    def begin(self) -> None:
-        """What is drawn from now on casts shadows."""
+    def usable(self, of: tuple[object, ...]) -> bool:
+        """Whether it shows `of` as it was not long ago; every question counts as a picture."""
+        self._pictures += 1
+        return of == self._of and self._pictures < _PICTURES
+
+    def begin(self, of: tuple[object, ...]) -> None:
+        """What is drawn from now on casts shadows: `of`, a mesh and how the light sees it."""
+        self._of, self._pictures = of, 0
         GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, self._name)
         GL.glViewport(0, 0, _SHADOW_SIZE, _SHADOW_SIZE)
         GL.glClear(GL.GL_DEPTH_BUFFER_BIT)

@@ -94,7 +94,8 @@ def examine(data: bytes, place: str, folder: Path | None = None) -> tuple[Readin
 
 def _whole(reading: Reading | None, problems: list[str]) -> Reading:
     if problems or reading is None:
-        more = f" ({len(problems) - 1} more problems; `check` lists them)" if len(problems) > 1 else ""
+        others = "1 more problem" if len(problems) == 2 else f"{len(problems) - 1} more problems"
+        more = f" ({others}; `check` lists them)" if len(problems) > 1 else ""
         raise UserError(problems[0] + more)
     return reading
 

@@ -76,7 +76,7 @@ def check(found: PhonemeMap, place: str) -> None:
         if common not in seen and common != SILENCE:
             raise UserError(
                 f"{place}: “{shown(phone)}” leads to “{shown(common)}”, which is not among its phonemes: "
-                f"write one of {' '.join(found.phonemes)}."
+                f"write one of {shown(' '.join(found.phonemes), 300)}."
             )
 
 

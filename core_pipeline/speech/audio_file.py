@@ -96,7 +96,8 @@ def _by_sndfile(path: Path) -> tuple[list[NDArray[np.float32]], int]:
             blocks: list[NDArray[np.float32]] = []
             size, count = max(1, _BLOCK // channels), 0
             while (block := file.read(size, dtype="float32", always_2d=True)).shape[0]:
-                blocks.append(block.mean(axis=1, dtype=np.float32))
+                with np.errstate(invalid="ignore"):  # ∞ − ∞, in a damaged float file
+                    blocks.append(block.mean(axis=1, dtype=np.float64).astype(np.float32))
                 count += block.shape[0]
                 _check_length(path, count / rate)
     except (soundfile.SoundFileError, RuntimeError, TypeError, ValueError, OSError) as error:

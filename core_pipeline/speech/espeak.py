@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import UserError
+from ..files.json_text import shown
 from ..phonemes import SILENCE
 from ..schedule import Schedule
 from . import mandarin
@@ -37,6 +38,17 @@ VOICES: Mapping[str, str] = MappingProxyType(
 )
 #: All of them, with those of other languages.
 ALL_VOICES: Mapping[str, str] = MappingProxyType({**VOICES, mandarin.VOICE: "Mandarin"})
+#: What people and language tags call some of them.
+NICKNAMES: Mapping[str, str] = MappingProxyType(
+    {
+        "american": "en-us",
+        "british": "gmw/en",
+        "en-gb": "gmw/en",
+        "mandarin": mandarin.VOICE,
+        "cmn": mandarin.VOICE,
+        "zh": mandarin.VOICE,
+    }
+)
 #: Words per minute that espeak can speak.
 SLOWEST, FASTEST = 80, 450
 #: espeak's own pitch; it goes from 0 to 99.
@@ -51,6 +63,15 @@ _PROGRAM = Path(__file__).with_name("espeak_process.py")
 
 class NoVoice(Exception):  # noqa: N818 - a state of the machine, no error of the user's
     """espeak-ng cannot speak here; str() says why, as a part of a sentence."""
+
+
+def voice_named(name: str) -> str:
+    """A voice by its own name or a nickname, capitals or not; UserError when there is none."""
+    plain = name.strip().lower().replace("_", "-")
+    voice = NICKNAMES.get(plain, plain)
+    if voice not in ALL_VOICES:
+        raise UserError(f"There is no voice “{shown(name)}”: choose one of {', '.join([*ALL_VOICES, *NICKNAMES])}.")
+    return voice
 
 
 class Espeak:
@@ -93,8 +114,7 @@ class Espeak:
         pitch  0…99
         UserError for an unknown voice, an impossible rate or pitch, or when nothing is heard; NoVoice without espeak.
         """
-        if voice not in ALL_VOICES:
-            raise UserError(f"There is no voice {voice!r}: choose one of {', '.join(ALL_VOICES)}.")
+        voice = voice_named(voice)
         if not SLOWEST <= rate <= FASTEST:
             raise UserError(f"A rate of {rate} words per minute cannot be spoken: choose {SLOWEST} to {FASTEST}.")
         if not 0 <= pitch <= 99:

@@ -7,7 +7,7 @@ from functools import cache
 
 from . import mandarin
 from .dictionary import Dictionary, installed
-from .espeak import PITCH, Espeak, NoVoice
+from .espeak import PITCH, Espeak, NoVoice, voice_named
 from .sentence import FOREIGN, Sentence, clean
 from .utterance import Utterance
 
@@ -37,12 +37,12 @@ class Speaker:
     def speak(self, text: str, voice: str = "en-us", rate: int = 175, pitch: int = PITCH) -> Utterance:
         """Sound, phones and words of a text of any number of sentences.
 
-        voice  one of espeak.ALL_VOICES
+        voice  one of espeak.ALL_VOICES or NICKNAMES
         rate   words per minute, 80…450
         pitch  0…99
         UserError when there is nothing to say, the text is too long, or voice, rate or pitch do not exist.
         """
-        sentence = clean(text)
+        sentence, voice = clean(text), voice_named(voice)
         chinese = voice == mandarin.VOICE
         if chinese:
             sentence = Sentence(sentence.text, tuple(note for note in sentence.notes if note != FOREIGN))

@@ -12,7 +12,7 @@ from core_pipeline.curve_set import Bigram, CurveSet
 from core_pipeline.curves import Curve
 from core_pipeline.files.curve_set_json import load
 from core_pipeline.phonemes import COMMON, SILENCE, Pair
-from core_pipeline.suggest import FEW, PEAK, REST, TOLERANCE, Suggestions, fill, is_drawn
+from core_pipeline.suggest import EDGES, FEW, PEAK, REST, TOLERANCE, Suggestions, fill, is_drawn
 from tests.helpers import strategies as ours
 from tests.helpers.animators import drawn_set
 
@@ -81,6 +81,20 @@ def test_what_is_drawn_is_left_alone_and_all_the_rest_is_filled_and_marked() -> 
     assert {b.status for b in filled.values()} == {"suggestion"}
     assert filled[gone[0]].note == "mind the teeth"
     assert filled[gone[0]].extra == {"colour": "red"}
+
+
+def test_pairs_with_silence_come_back_where_some_are_drawn() -> None:
+    curve_set = english()
+    edges = [pair for pair in curve_set.bigrams if SILENCE in pair]
+    gone = [pair for i, pair in enumerate(edges) if i % 3]
+    part = replace(curve_set, bigrams={p: b for p, b in curve_set.bigrams.items() if p not in set(gone)})
+    filled = fill(part)
+    assert set(filled) == set(gone)
+    ours, empty = error(curve_set, filled, gone)
+    assert ours <= 0.4 * empty
+    few = [pair for pair in edges if pair[0] == SILENCE][: EDGES - 1]
+    rest = {p: b for p, b in curve_set.bigrams.items() if SILENCE not in p or p in few}
+    assert not fill(replace(curve_set, bigrams=rest))
 
 
 def test_the_source_counts_row_and_column_without_the_pair_itself() -> None:

@@ -26,6 +26,8 @@ from core_pipeline.faces.sculpt.tongue import tongue
 from core_pipeline.faces.sculpt.trimmings import body, brows, ears
 
 UNSHADED = ("mouth", "lips", "teeth", "gums", "tongue", "eye", "glint", "lid", "lash")
+#: What shows no inner side to the front: bodies and tubes whose open ends lie within others. Hair does.
+CLOSED = ("mouth", "lips", "skin", "lid_rims", "teeth", "gums", "tongue", "eye", "glint", "brow", "ear", "spot")
 FLESH = np.array([0.8, 1.1, 1.2])  # shade on skin is warm
 Colours = NDArray[np.float32]
 IDLE = ("blink", "browUp")
@@ -84,6 +86,7 @@ def assemble(character: Character, made: list[Piece]) -> Face:
         normal_deltas=normal_deltas,
         pose_map=character.pose_map,
         parts=parts,
+        closed=frozenset(name for name in parts if name.startswith(CLOSED)),
         camera=character.camera,
     )
 

@@ -87,6 +87,7 @@ def test_a_phoneme_map_changes_the_curves(tmp_path):
         (["hi", "--assign", "x"], "NAME=PHONE"),
         (["hi", "--assign", "x=qq"], "no phone"),
         (["hi", "--voice", "klingon"], "no voice"),
+        (["--labels", "x.lab", "--label-rate", "0"], "--label-rate 0"),
         (["hi", "--rate", "9"], "words per minute"),
         (["hi", "--pitch", "200"], "pitch"),
         (["hi", "--phoneme-map", "none"], "no phoneme map"),

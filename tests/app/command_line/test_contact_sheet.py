@@ -5,7 +5,8 @@ import pytest
 from PIL import Image
 
 from app.cli import main
-from app.command_line.contact_sheet import poses_of, sheet
+from app.command_line.contact_sheet import sheet
+from app.command_line.posed import poses_of
 from app.resources import face_folder
 from app.rigs import open_rig
 from core_pipeline.poses import FACEFX, TONGUE_OPEN

@@ -160,6 +160,24 @@ def test_what_is_no_journal_is_refused(tmp_path: Path, data: bytes) -> None:
         journal.read(file)
 
 
+def test_a_damaged_line_costs_nothing_of_what_came_before(tmp_path: Path) -> None:
+    file, drawn = tmp_path / "1.journal", CurveSet().with_bigram(F_AH, Bigram({"open": HILL}, "draft"))
+    journal.begin(file, Kept(CurveSet(), None, ""))
+    journal.add(file, drawn, [F_AH])
+    whole = file.read_bytes()
+    for bad in ({"set": "{", "gone": []}, {"set": '{"name": "\ud800"}', "gone": []}):
+        file.write_bytes(whole + json.dumps(bad).encode() + b"\n")
+        assert journal.read(file).curve_set.bigrams[F_AH].curves["open"].same_as(HILL)
+
+
+@pytest.mark.parametrize("text", ["{", "[[" * 9000, '{"name": "\ud800"}', '{"base": 3'])
+def test_a_journal_whose_set_is_damaged_is_refused(tmp_path: Path, text: str) -> None:
+    file = tmp_path / "1.journal"
+    file.write_text(json.dumps({"schema": journal.SCHEMA, "set": text}) + "\n")
+    with pytest.raises(UserError, match=r"1\.journal"):
+        journal.read(file)
+
+
 @pytest.mark.skipif(os.name != "posix", reason="SIGKILL is a signal of POSIX systems")
 def test_killed_at_any_moment_at_most_the_gesture_at_hand_is_lost(tmp_path: Path) -> None:
     for lines in (1, 12):

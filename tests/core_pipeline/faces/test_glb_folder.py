@@ -15,6 +15,7 @@ BALL = replace(
     title="The Ball",
     pose_map={"open": {ball().shapes[0]: 0.75}},
     parts={"top": (0, 10), "rest": (10, len(ball().triangles) - 10)},
+    closed=frozenset({"rest"}),
     camera=Camera(target=(0.0, 0.25, -1.0), distance=3.5, yaw=15.0, pitch=-4.0, fov=30.0),
 )
 
@@ -35,6 +36,7 @@ def test_title_camera_parts_and_mixes_come_back(folder):
     back = load(folder)
     assert (back.name, back.title) == ("ball", "The Ball")
     assert (back.camera, back.parts, back.pose_map) == (BALL.camera, BALL.parts, BALL.pose_map)
+    assert back.closed == {"rest"}
     assert back.mix("open") == {BALL.shapes[0]: 0.75}
 
 
@@ -83,11 +85,12 @@ def test_bytes_that_are_no_text(folder):
         {"parts": {"top": [0]}},
         {"parts": {"top": None}},
         {"parts": []},
+        {"closed": 3},
     ],
 )
 def test_fields_that_are_not_as_they_should_be(folder, fields):
     change(folder, **fields)
-    with pytest.raises(UserError, match=r"face\.json: its camera, pose_map or parts"):
+    with pytest.raises(UserError, match=r"face\.json: its camera, pose_map, parts or closed"):
         load(folder)
 
 
@@ -95,8 +98,14 @@ def test_a_mix_of_unknown_shapes_and_a_part_outside_the_mesh(folder):
     change(folder, pose_map={"open": {"jawOpen": 1.0}})
     with pytest.raises(UserError, match="jawOpen"):
         load(folder)
-    change(folder, pose_map={}, parts={"top": [0, 10**6]})
+    change(folder, pose_map={}, parts={"top": [0, 10**6]}, closed=[])
     with pytest.raises(UserError, match=r"part “top” lies outside"):
+        load(folder)
+
+
+def test_a_closed_part_that_is_none(folder):
+    change(folder, closed=["rest", "hat"])
+    with pytest.raises(UserError, match=r"no parts to be closed named hat"):
         load(folder)
 
 

@@ -218,3 +218,9 @@ def test_colours_of_the_vertices(tmp_path):
     for top in ("1", "255"):
         face = read(tmp_path, neutral=QUAD.replace(" 0\n", f" 0 {top} 0 0\n"), up=LIFTED)
         np.testing.assert_allclose(face.colours[:, :3], [[1, 0, 0]] * 4)
+
+
+@pytest.mark.parametrize("number", ["1e300", "nan", "99999999999999999999", "-1e19"])
+def test_a_corner_far_beyond_all_vertices_is_refused(tmp_path, number):
+    sentence = refused(tmp_path, neutral=QUAD.replace("f 1 2", f"f {number} 2"), up=LIFTED)
+    assert "a face uses a vertex" in sentence

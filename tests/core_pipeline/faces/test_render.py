@@ -129,6 +129,25 @@ def test_what_is_in_the_way_of_the_key_light_casts_a_shadow_to_the_lower_right()
     assert darker.sum() > 80
 
 
+def test_in_motion_a_shadow_may_be_two_pictures_old_but_never_in_full_quality_or_another_view():
+    face = plates((0, 0, 0, 0.95, GREY), (-0.3, 0.4, 0.4, 0.2, GREY))
+    face.deltas[0, 4:, 0] = 9.0  # shape `tall` takes away what casts the shadow
+    renderer = FaceRenderer(face)
+    gone, there = np.array([1, 0], np.float32), REST
+
+    def shaded(amounts, view=VIEW, full_quality=False):
+        return draw(renderer, amounts, view, full_quality=full_quality)[48, 48, 1] < 0.8 * lit
+
+    lit = int(draw(renderer, gone, full_quality=True)[48, 48, 1])
+    assert shaded(there, full_quality=True)
+    assert [shaded(gone) for _ in range(4)] == [True, True, False, False]
+    assert shaded(there, full_quality=True)
+    assert not shaded(gone, VIEW.turned(1))
+    assert shaded(there, full_quality=True)
+    assert not shaded(gone, full_quality=True)
+    renderer.close()
+
+
 def test_a_cut_away_hides_the_near_half_but_not_the_tongue():
     face = plates((0, 0, -0.3, 0.9, GREEN), (0, 0, 0.3, 0.3, RED), parts={"skin": (0, 2), "tongue": (2, 2)})
     for yaw, hidden, shown in ((20, slice(62, 76), slice(24, 30)), (-20, slice(20, 34), slice(66, 72))):

@@ -30,6 +30,7 @@ def test_the_shipped_face_is_what_the_generator_makes(built, character):
     made, shipped = load(built[0] / character.name), load(f"assets/faces/{character.name}")
     assert (made.shapes, dict(made.parts), made.camera) == (shipped.shapes, dict(shipped.parts), shipped.camera)
     assert (made.title, dict(made.pose_map)) == (shipped.title, dict(shipped.pose_map))
+    assert made.closed == shipped.closed
     np.testing.assert_array_equal(made.triangles, shipped.triangles)
     for name in ("positions", "normals", "colours", "deltas", "normal_deltas"):
         np.testing.assert_allclose(getattr(made, name), getattr(shipped, name), atol=1e-4, err_msg=name)

@@ -29,6 +29,14 @@ def test_the_default_is_table_1_of_the_paper():
     assert phoneme_map_json.load("assets/phoneme_maps/mandarin.json").phonemes == (*COMMON, "ü")
 
 
+def test_a_phoneme_of_thousands_of_letters_does_not_fill_the_sentence():
+    with pytest.raises(UserError, match="leads to “x”") as told:
+        phoneme_map_json.parse(
+            json.dumps({"schema": phoneme_map_json.SCHEMA, "phonemes": ["a" * 9000], "map": {"ae": "x"}}).encode(), "m"
+        )
+    assert len(str(told.value)) < 500
+
+
 @pytest.mark.parametrize(
     ("change", "says"),
     [

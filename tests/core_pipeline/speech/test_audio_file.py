@@ -60,6 +60,16 @@ def test_floats_beyond_one_and_no_numbers_are_tamed(tmp_path):
     assert samples[2] == -0.5
 
 
+def test_samples_of_damaged_floats_do_not_overflow(tmp_path):
+    path = tmp_path / "a.wav"
+    block = np.full((50, 6), 3e38, np.float32)
+    block[7] = [np.inf, -np.inf, 0, 0, 0, 0]
+    soundfile.write(path, block, RATE, subtype="FLOAT")
+    samples = read_audio(path).samples
+    assert samples.max() == 1
+    assert samples[7] == 0
+
+
 def test_the_sound_of_a_video_is_read(tmp_path):
     import av
 

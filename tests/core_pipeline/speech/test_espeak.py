@@ -14,7 +14,7 @@ import pytest
 
 from core_pipeline.errors import UserError
 from core_pipeline.phonemes import SILENCE, TABLE_1
-from core_pipeline.speech.espeak import VOICES, Espeak, NoVoice
+from core_pipeline.speech.espeak import ALL_VOICES, NICKNAMES, VOICES, Espeak, NoVoice, voice_named
 from core_pipeline.speech.sentence import clean
 
 SENTENCES = (
@@ -120,6 +120,13 @@ def test_voices_differ(espeak):
     american, british = (espeak.speak(clean("park"), voice).schedule.phones for voice in ("en-us", "gmw/en"))
     assert "r" in american
     assert "r" not in british
+
+
+def test_voices_are_known_by_what_people_call_them():
+    assert [voice_named(n) for n in ("en-GB", "en_gb", "British", "gmw/en", "en-US")] == ["gmw/en"] * 4 + ["en-us"]
+    assert {voice_named(name) for name in (*NICKNAMES, *ALL_VOICES)} == {*ALL_VOICES}
+    with pytest.raises(UserError, match="no voice “klingon”"):
+        voice_named("klingon")
 
 
 def test_a_higher_rate_is_shorter(espeak):
