@@ -245,7 +245,7 @@ class MainWindow(QMainWindow):
         column.addWidget(self.keymap_question)
         column.addWidget(self.bigram_tabs)
         column.addWidget(body, 1)
-        centre.setMinimumSize(360, 180)
+        centre.setMinimumSize(390, 180)
         self.setCentralWidget(centre)
         return centre
 

@@ -77,7 +77,7 @@ class PoseList(QTreeWidget):
         }
         self.currentItemChanged.connect(self._pick)
         self.setTextElideMode(Qt.TextElideMode.ElideMiddle)  # names differ at their ends: tongue up, tongue out
-        self.setMinimumWidth(120)
+        self.setMinimumWidth(150)
 
     # Values come down
 
