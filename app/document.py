@@ -184,6 +184,12 @@ class Document(QObject):
         """The file's name, or that it has none yet."""
         return self.path.name if self.path is not None else f"{self.curve_set.name} (not saved yet)"
 
+    @property
+    def file_name(self) -> str:
+        """What its file is called, or should be called: by the set's name."""
+        named = "".join(c for c in self.curve_set.name if c.isalnum() or c in " -_").strip()[:60]
+        return self.path.name if self.path is not None else f"{named or 'curves'}.json"
+
     def open(self, path: Path) -> tuple[str, ...]:
         """Open a file; the repairs made, one sentence each. UserError leaves the present set untouched."""
         data = read_bytes(path, curve_set_json.MAX_BYTES, "curve set")

@@ -230,8 +230,7 @@ class FileActions(QObject):
         if self.document.read_only_reason:
             self.complain(self.document.read_only_reason)
             return False
-        name = self.document.path.name if self.document.path is not None else "curves.json"
-        path = self.ask_path(self.tr("Save the curve set"), CURVE_SETS, name)
+        path = self.ask_path(self.tr("Save the curve set"), CURVE_SETS, self.document.file_name)
         if path is None:
             return False
         saved = self._write(path)

@@ -53,7 +53,7 @@ PRESETS: Mapping[str, Preset] = MappingProxyType(
             (("weak", "queue", "sentences"),),
             (("preview",),),
             wide=(420, 640),
-            quarters=1.6,
+            quarters=1.3,
             below=0.42,
         ),
         "face": Preset(
@@ -61,7 +61,7 @@ PRESETS: Mapping[str, Preset] = MappingProxyType(
             (("mapping",),),
             (("preview",), ("weights",)),
             (),
-            wide=(400, 620),
+            wide=(340, 620),
             quarters=1.5,
         ),
         "curves": Preset(str(QT_TRANSLATE_NOOP("Layouts", "&Curves Only")), bottom=()),

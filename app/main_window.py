@@ -52,6 +52,8 @@ from .focus_ring import FocusRing
 from .layouts import AUTHOR, LOW, arrange
 
 _Area = Qt.DockWidgetArea
+#: Pixels across that the canvas keeps when pose names want room.
+_CANVAS = 320
 
 
 class MainWindow(QMainWindow):
@@ -184,6 +186,13 @@ class MainWindow(QMainWindow):
         self._layout = name
         arrange(self, name, self._homes, self._hidden)
 
+    def fit_poses(self) -> None:
+        """As much room for the names of the poses as the canvas can spare."""
+        poses, canvas, *others = self._canvases.sizes()
+        more = min(self.pose_list.sizeHint().width() - poses, canvas - _CANVAS)
+        if more > 0:
+            self._canvases.setSizes([poses + more, canvas - more, *others])
+
     def show_beside(self, on: bool) -> None:
         """One canvas, or two of the same width; Space plays where there is no room for the button."""
         self.bigram_transport.setVisible(not on)
@@ -236,7 +245,7 @@ class MainWindow(QMainWindow):
         column.addWidget(self.keymap_question)
         column.addWidget(self.bigram_tabs)
         column.addWidget(body, 1)
-        centre.setMinimumSize(360, 180)
+        centre.setMinimumSize(390, 180)
         self.setCentralWidget(centre)
         return centre
 

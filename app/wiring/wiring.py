@@ -182,6 +182,7 @@ class Wiring(QObject):
         curve_set, w = self._document.curve_set, self._window
         self._show_orders()
         w.pose_list.set_poses(curve_set.poses, {p: MEANING[p] for p in curve_set.poses if p in MEANING})
+        w.fit_poses()
         w.canvas.set_poses(curve_set.poses)
         w.weights.set_poses(curve_set.poses)
         self._session.set_curve_set(curve_set)

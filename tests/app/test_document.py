@@ -147,10 +147,11 @@ def test_an_edit_that_could_not_be_saved_is_refused(
 def test_save_clears_the_mark_and_the_file_holds_the_edit(document: Document, tmp_path: Path) -> None:
     path = tmp_path / "mine.json"
     assert document.title == "Untitled (not saved yet)"
+    assert document.file_name == "Untitled.json"
     document.edit_curves(F_AH, {"open": HIGH}, "Move key")
     document.save(path)
     assert not document.is_dirty
-    assert (document.path, document.title) == (path, "mine.json")
+    assert (document.path, document.title, document.file_name) == (path, "mine.json", "mine.json")
     assert curve_set_json.load(path).bigrams[F_AH].curves["open"].same_as(HIGH)
     document.undo_stack.undo()
     assert document.is_dirty
@@ -280,3 +281,8 @@ def test_a_whole_bigram_is_put_with_its_status() -> None:
     assert document.curve_set.bigrams["f", "ah"] is approved
     with pytest.raises(UserError, match="is not a bigram of this set"):
         document.put_bigram(("f", "?"), approved, "Approve")
+
+
+@pytest.mark.parametrize(("name", "file"), [("Bob/..\\a: b", "Boba b.json"), ("…", "curves.json"), ("魚", "魚.json")])
+def test_a_new_file_is_to_be_called_by_the_sets_name(qtbot: QtBot, name: str, file: str) -> None:
+    assert Document(CurveSet(name=name)).file_name == file

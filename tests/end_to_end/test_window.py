@@ -250,3 +250,20 @@ def test_a_b_beside_b_a(editor: Editor, qtbot: QtBot) -> None:
     assert not beside.isVisible()
     assert not w.actions_.beside.isChecked()
     assert editor.wiring.beside.pair is None
+
+
+def test_docks_share_a_place_in_a_low_window_and_part_when_it_is_high_again(editor: Editor) -> None:
+    w = editor.window
+    w.resize(1600, 1000)
+    assert w.weak_dock not in w.tabifiedDockWidgets(w.bigrams_dock)
+    w.resize(1600, 720)
+    assert w.weak_dock in w.tabifiedDockWidgets(w.bigrams_dock)
+    w.resize(1600, 1000)
+    assert w.weak_dock not in w.tabifiedDockWidgets(w.bigrams_dock)
+
+
+def test_the_first_window_is_no_higher_than_its_screen(editor: Editor) -> None:
+    w = editor.window
+    w.resize(1600, 10 * w.screen().availableSize().height())
+    w.fit_screen()
+    assert 640 <= w.height() < w.screen().availableSize().height()

@@ -14,8 +14,8 @@ NAME, EYE, LOCK, SOLO = range(4)
 
 _ROW = 24
 _SWATCH = 12
-#: Pixels of a row that the name does not have, and of the widest list that insists on whole names.
-_BESIDE, _WIDEST = 110, 230
+#: Pixels of the widest list that asks for room for whole names.
+_WIDEST = 240
 
 
 class PoseList(QTreeWidget):
@@ -77,7 +77,7 @@ class PoseList(QTreeWidget):
         }
         self.currentItemChanged.connect(self._pick)
         self.setTextElideMode(Qt.TextElideMode.ElideMiddle)  # names differ at their ends: tongue up, tongue out
-        self.setMinimumWidth(120)
+        self.setMinimumWidth(150)
 
     # Values come down
 
@@ -92,7 +92,6 @@ class PoseList(QTreeWidget):
         for item in self._items.values():
             item.setSizeHint(NAME, QSize(60, _ROW))
         self.addTopLevelItems(list(self._items.values()))
-        self.setMinimumWidth(max(120, min(self._longest() + _BESIDE, _WIDEST)))
         self._refresh()
         self.set_active(active)
 
@@ -127,11 +126,8 @@ class PoseList(QTreeWidget):
 
     def sizeHint(self) -> QSize:
         """Wide enough for the names and both icons, tall enough for every pose."""
-        return QSize(max(150, self._longest() + _SWATCH + 120), _ROW * max(3, len(self._poses)) + 4)
-
-    def _longest(self) -> int:
-        """Pixels of the longest name."""
-        return max((self.fontMetrics().horizontalAdvance(pose) for pose in self._poses), default=60)
+        names = max((self.fontMetrics().horizontalAdvance(pose) for pose in self._poses), default=60)
+        return QSize(min(max(150, names + _SWATCH + 120), _WIDEST), _ROW * max(3, len(self._poses)) + 4)
 
     def _refresh(self) -> None:
         for index, (pose, item) in enumerate(self._items.items()):

@@ -180,6 +180,10 @@ class BigramGrid(QTableView):
             # inside the ring of the current cell, so that both can be seen
             inset = {current: 1}
             painter.drawRects([_inside(self.rect_of(p), inset.get(p, 0)) for p in used])
+            pale = [p for p in used if self.pairs.statuses.get(p) == "approved"]
+            if pale:  # white on nearly white: a dark line within
+                painter.setPen(theme.SUNKEN)
+                painter.drawRects([_inside(self.rect_of(p), inset.get(p, 0) + 1) for p in pale])
         if self._found is not None and self._ringed:
             painter.setPen(theme.LINK)
             painter.drawRects([_inside(self.rect_of(p), 0) for p in self._found if self.pairs.cell(p)])

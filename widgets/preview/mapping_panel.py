@@ -27,7 +27,7 @@ from .mix_table import MixTable
 
 _Role = Qt.ItemDataRole
 _ROW = 20
-_LIST_WIDTH = 94
+_LIST_WIDTH = 112
 #: Side of the reference picture, in pixels of the widget.
 REFERENCE = 92
 
@@ -142,6 +142,7 @@ class MappingPanel(QWidget):
         self.poses.setAccessibleName(self.tr("Poses of the face"))
         self.poses.setAccessibleDescription(self.tr("Up and down pick the pose whose mix is shown"))
         self.poses.setFixedWidth(_LIST_WIDTH)
+        self.poses.setTextElideMode(Qt.TextElideMode.ElideMiddle)
         self.poses.setIconSize(QSize(14, 14))
         self.poses.setUniformItemSizes(True)
         self.poses.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)

@@ -162,6 +162,14 @@ def test_rings_say_in_sentence_and_open(picker):
     assert colour(picker, ("r", "ih"), (0, 5)) == theme.STATUS_COLOURS["empty"]
 
 
+def test_the_ring_of_an_approved_bigram_stands_out_from_its_pale_fill(picker):
+    picker.set_statuses({("d", "ih"): "approved"})
+    picker.set_used({("d", "ih"): 1})
+    assert colour(picker, ("d", "ih"), (0, 5)) == theme.BRIGHT
+    assert colour(picker, ("d", "ih"), (1, 5)) == theme.SUNKEN
+    assert colour(picker, ("d", "ih")) == theme.STATUS_COLOURS["approved"]
+
+
 def test_the_open_bigram_still_shows_that_it_is_in_the_sentence(picker):
     picker.set_used({F_AH: 1})
     picker.set_current(F_AH)
