@@ -16,6 +16,7 @@ from ..errors import UserError
 from ..phonemes import COMMON, SILENCE, TABLE_1, Pair, pair_name
 from ..poses import FACEFX
 from .curve_set_records import MAX_NAMES
+from .curve_set_text import in_order
 from .json_text import shown
 from .keys import SLACK, Mends, mend
 from .smartbody_script import Keys, Script, ScriptSet, many
@@ -69,7 +70,7 @@ def import_set(script: Script, name: str | None = None) -> Import:
         )
     if more := [phone for phone in phonemes if phone not in COMMON]:
         report.notes.append(f"{script.place}: {' '.join(more)} became phonemes of the set, beside the 21.")
-    poses = _poses(bigrams)
+    poses = _poses(bigrams, phonemes)
     curve_set = CurveSet(
         name=chosen[:200],
         phonemes=phonemes,
@@ -112,10 +113,12 @@ def _bigram(pair: Pair, keys: Keys, report: _Report, place: str) -> Bigram:
 
 def _phonemes(bigrams: Mapping[Pair, Bigram]) -> tuple[str, ...]:
     """The 21 where the script speaks of most of them, and further phones that have curves with half of those."""
-    used = dict.fromkeys(phone for pair in bigrams for phone in pair if phone != SILENCE)
+    used = _appearing(bigrams)
+    for _ in used:  # until the order in which we would write the pairs tells the same order of phones
+        used = _appearing(in_order(bigrams, used))
     common = [phone for phone in COMMON if phone in used]
     if 2 * len(common) < len(used) or len(used) < 2:  # another phoneme set
-        phonemes = tuple(used)
+        phonemes = used
     else:
         further = [phone for phone in used if phone not in COMMON and _companions(phone, common, bigrams) >= 1.0]
         phonemes = (*COMMON, *further)
@@ -124,15 +127,19 @@ def _phonemes(bigrams: Mapping[Pair, Bigram]) -> tuple[str, ...]:
     return phonemes
 
 
+def _appearing(pairs: Iterable[Pair]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(phone for pair in pairs for phone in pair if phone != SILENCE))
+
+
 def _companions(phone: str, common: list[str], bigrams: Mapping[Pair, Bigram]) -> float:
     """1 where half of the pairs of `phone` with the common ones have curves."""
     pairs = [(phone, other) for other in common] + [(other, phone) for other in common]
     return sum(pair in bigrams and not bigrams[pair].is_empty for pair in pairs) / len(common)
 
 
-def _poses(bigrams: Mapping[Pair, Bigram]) -> tuple[str, ...]:
-    """The nine of FaceFX where any of them is used, then the others as they come."""
-    used = dict.fromkeys(pose for bigram in bigrams.values() for pose in bigram.curves)
+def _poses(bigrams: Mapping[Pair, Bigram], phonemes: tuple[str, ...]) -> tuple[str, ...]:
+    """The nine of FaceFX where any of them is used, then the others as they come in the set's own order."""
+    used = dict.fromkeys(pose for pair in in_order(bigrams, phonemes) for pose in bigrams[pair].curves)
     usual = FACEFX if not used or any(pose in FACEFX for pose in used) else ()
     poses = tuple(dict.fromkeys((*usual, *used)))
     if len(poses) > MAX_NAMES:

@@ -215,6 +215,16 @@ def test_our_english_set_goes_out_and_comes_back_key_by_key(tmp_path: Path) -> N
         assert all(curves[pose].same_as(curve) for pose, curve in bigram.curves.items())
 
 
+def test_neither_phones_nor_poses_change_places_when_a_script_goes_round() -> None:
+    lines = [
+        f'd = m.createDiphone("{pair[0]}", "{pair[1]}", "s")\nd.addKey("{pose}", 0.5, 1)\n'
+        for pair, pose in (("yz", "b"), ("xx", "c"), ("yx", "a"), ("zw", "d"), ("yy", "e"))
+    ]
+    first = imported("".join(lines)).curve_set
+    again = imported(script(first)).curve_set
+    assert (again.phonemes, again.poses) == (first.phonemes, first.poses)
+
+
 @given(ours.curve_sets(nasty=True))
 def test_what_is_written_is_read_and_written_the_same(curve_set: CurveSet) -> None:
     text = script(curve_set)
