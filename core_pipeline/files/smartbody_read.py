@@ -113,9 +113,11 @@ def _bigram(pair: Pair, keys: Keys, report: _Report, place: str) -> Bigram:
 
 def _phonemes(bigrams: Mapping[Pair, Bigram]) -> tuple[str, ...]:
     """The 21 where the script speaks of most of them, and further phones that have curves with half of those."""
-    used = _appearing(bigrams)
-    for _ in used:  # until the order in which we would write the pairs tells the same order of phones
-        used = _appearing(in_order(bigrams, used))
+    used, before = _appearing(bigrams), None
+    for _ in range(10):  # until the order in which we would write the pairs tells the same order of phones
+        if used == before:
+            break
+        used, before = _appearing(in_order(bigrams, used)), used
     common = [phone for phone in COMMON if phone in used]
     if 2 * len(common) < len(used) or len(used) < 2:  # another phoneme set
         phonemes = used
