@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from .texture import Material, Texture
+
 Floats = NDArray[np.float32]
 
 
@@ -36,7 +38,11 @@ class Face:
     pose_map       pose → {shape: amount}; empty for a face whose shapes are the poses
     expressions    what the rig's author made of its shapes (VRM), expression → {shape: amount}
     parts          name → (first triangle, number of triangles), so that checks can tell teeth from skin
-    closed         the parts that show no inner side to someone in front; ValueError when one is no part
+    closed         the parts that show no inner side to someone in front
+    textures       the pictures that lie on it, for the parts in `materials`
+    materials      name of a part → what lies on it; the others show their vertices' colours
+    texcoords      (n, 2) where a vertex lies in its picture, +v down; None for a face without pictures
+    Raises ValueError when a name is no part's, or a material has no picture.
     """
 
     name: str
@@ -53,10 +59,18 @@ class Face:
     parts: Mapping[str, tuple[int, int]] = field(default_factory=dict)
     closed: frozenset[str] = frozenset()
     camera: Camera = Camera()
+    textures: tuple[Texture, ...] = ()
+    materials: Mapping[str, Material] = field(default_factory=dict)
+    texcoords: Floats | None = None
 
     def __post_init__(self) -> None:
-        if not self.closed <= set(self.parts):
-            raise ValueError(f"no parts of this face: {sorted(self.closed - set(self.parts))}")
+        strange = (self.closed | set(self.materials)) - set(self.parts)
+        if strange:
+            raise ValueError(f"no parts of this face: {sorted(strange)}")
+        if self.materials and self.texcoords is None:
+            raise ValueError("a face with pictures needs texcoords")
+        if not all(0 <= material.texture < len(self.textures) for material in self.materials.values()):
+            raise ValueError(f"a material's picture is none of the {len(self.textures)}")
 
     def mix(self, pose: str) -> Mapping[str, float]:
         """The shapes that make up a pose, shape → amount; empty when this face cannot make it."""
