@@ -20,8 +20,6 @@ from .view import View, places
 if TYPE_CHECKING:
     from .render_gl import FaceGL
 
-_SAMPLES = 4
-
 Pixels = NDArray[np.uint8]
 
 
@@ -105,7 +103,7 @@ class Renderer:
         self._gl.forget(but=faces)
         self._blends = {face: kept for face, kept in self._blends.items() if face in faces}
         width, height = (max(int(side), 1) for side in size)
-        self._gl.begin((width, height), _SAMPLES if full_quality or not self._gl.software else 0)
+        self._gl.begin((width, height), smooth=full_quality or not self._gl.software)
         for figure, place in zip(figures, places((width, height), len(figures)), strict=False):
             face = figure.face
             if face not in self._blends:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,8 +12,31 @@ from pyrender import MetallicRoughnessMaterial, Primitive
 
 from .face import Face, Floats
 from .inner_sides import InnerSides
+from .texture import Material, Texture
 
 _WHOLE = ("tongue",)  # how the names of the parts begin that a cut-away leaves whole
+_WRAP = {"repeat": GL.GL_REPEAT, "clamp": GL.GL_CLAMP_TO_EDGE, "mirror": GL.GL_MIRRORED_REPEAT}
+
+
+@dataclass(frozen=True)
+class Batch:
+    """Triangles that are drawn in one go, `count` from the number `first` on.
+
+    whole     a cut-away leaves them whole
+    closed    someone in front sees no inner side of theirs
+    material  what lies on them, if anything does
+    """
+
+    first: int
+    count: int
+    whole: bool
+    closed: bool
+    material: Material | None
+
+    @property
+    def solid(self) -> bool:
+        """Whether every triangle is there from edge to edge, whatever its picture shows."""
+        return self.material is None or (self.material.cutoff == 0.0 and not self.material.soft)
 
 
 class FaceMesh(Primitive):  # type: ignore[misc]
@@ -26,39 +50,49 @@ class FaceMesh(Primitive):  # type: ignore[misc]
             indices=face.triangles,
             material=MetallicRoughnessMaterial(alphaMode="OPAQUE"),
         )
-        # The base class keeps indices as float32; these go to the card as they are.
-        self.corners: NDArray[np.uint32] = np.ascontiguousarray(face.triangles, np.uint32)
         self._moving = 0
-        whole = np.zeros(len(self.corners), bool)
-        for name, (first, count) in face.parts.items():
-            whole[first : first + count] = name.startswith(_WHOLE)
+        self._texcoords = face.texcoords
+        self._pictures = face.textures
+        self._textures: list[int] = []
         self.inner_sides = InnerSides(face)
-        may_show = self.inner_sides.may_show
-        # what a cut leaves whole, and the rest, each as runs of (first, count)
-        self._all = _runs(whole), _runs(~whole)
-        self._showing_inside = _runs(whole & may_show), _runs(~whole & may_show)
+        order, self.batches = _batches(face, ~self.inner_sides.may_show)
+        # The base class keeps indices as float32; these go to the card as they are.
+        self._corners: NDArray[np.uint32] = np.ascontiguousarray(face.triangles[order], np.uint32)
 
     def _add_to_context(self) -> None:
         self._vaid = GL.glGenVertexArrays(1)
         GL.glBindVertexArray(self._vaid)
-        self._moving, still, corners = (int(name) for name in GL.glGenBuffers(3))
-        self._buffers = [self._moving, still, corners]
-
+        self._moving = int(GL.glGenBuffers(1))
+        self._buffers = [self._moving]
         GL.glBindBuffer(GL.GL_ARRAY_BUFFER, self._moving)
         GL.glBufferData(GL.GL_ARRAY_BUFFER, 24 * len(self.positions), None, GL.GL_STREAM_DRAW)
         for location in (0, 1):
             GL.glVertexAttribPointer(location, 3, GL.GL_FLOAT, GL.GL_FALSE, 24, ctypes.c_void_p(12 * location))
             GL.glEnableVertexAttribArray(location)
-
-        colours = np.ascontiguousarray(self.color_0, np.float32)
-        GL.glBindBuffer(GL.GL_ARRAY_BUFFER, still)
-        GL.glBufferData(GL.GL_ARRAY_BUFFER, colours.nbytes, colours, GL.GL_STATIC_DRAW)
-        GL.glVertexAttribPointer(2, 4, GL.GL_FLOAT, GL.GL_FALSE, 16, ctypes.c_void_p(0))
-        GL.glEnableVertexAttribArray(2)
-
+        self._add_still(2, self.color_0)
+        if self._texcoords is not None:
+            self._add_still(3, self._texcoords)
+        corners = int(GL.glGenBuffers(1))
+        self._buffers.append(corners)
         GL.glBindBuffer(GL.GL_ELEMENT_ARRAY_BUFFER, corners)
-        GL.glBufferData(GL.GL_ELEMENT_ARRAY_BUFFER, self.corners.nbytes, self.corners, GL.GL_STATIC_DRAW)
+        GL.glBufferData(GL.GL_ELEMENT_ARRAY_BUFFER, self._corners.nbytes, self._corners, GL.GL_STATIC_DRAW)
         GL.glBindVertexArray(0)
+        self._textures = [_texture(picture) for picture in self._pictures]
+
+    def _add_still(self, location: int, values: Floats) -> None:
+        values = np.ascontiguousarray(values, np.float32)
+        name = int(GL.glGenBuffers(1))
+        self._buffers.append(name)
+        GL.glBindBuffer(GL.GL_ARRAY_BUFFER, name)
+        GL.glBufferData(GL.GL_ARRAY_BUFFER, values.nbytes, values, GL.GL_STATIC_DRAW)
+        GL.glVertexAttribPointer(location, values.shape[1], GL.GL_FLOAT, GL.GL_FALSE, 0, ctypes.c_void_p(0))
+        GL.glEnableVertexAttribArray(location)
+
+    def _remove_from_context(self) -> None:
+        super()._remove_from_context()
+        if self._textures:
+            GL.glDeleteTextures(self._textures)
+            self._textures = []
 
     def update(self, vertices: Floats) -> None:
         """Replace positions and normals: (n, 6), contiguous."""
@@ -67,16 +101,51 @@ class FaceMesh(Primitive):  # type: ignore[misc]
         GL.glBindBuffer(GL.GL_ARRAY_BUFFER, self._moving)
         GL.glBufferSubData(GL.GL_ARRAY_BUFFER, 0, vertices.nbytes, vertices)
 
-    def draw(self, cut: float, location: int, closed: bool = True) -> None:
-        """With the program that is in use, which has its uniform `cut` at `location`; perhaps without closed bodies."""
+    def bind_picture(self, material: Material) -> None:
+        """For the shader to read, in texture unit 0."""
+        GL.glActiveTexture(GL.GL_TEXTURE0)
+        GL.glBindTexture(GL.GL_TEXTURE_2D, self._textures[material.texture])
+
+    def draw(self, batch: Batch) -> None:
+        """With the program that is in use."""
         self._bind()
-        for runs, hidden in zip(self._all if closed else self._showing_inside, (0.0, cut), strict=True):
-            GL.glUniform1f(location, hidden)
-            for first, count in runs:
-                GL.glDrawElements(GL.GL_TRIANGLES, 3 * count, GL.GL_UNSIGNED_INT, ctypes.c_void_p(12 * first))
+        first = ctypes.c_void_p(12 * batch.first)
+        GL.glDrawElements(GL.GL_TRIANGLES, 3 * batch.count, GL.GL_UNSIGNED_INT, first)
 
 
-def _runs(chosen: NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """Each run of True as (first, count)."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], chosen, [False]])))
-    return [(int(a), int(b - a)) for a, b in zip(edges[::2], edges[1::2], strict=True)]
+def _batches(face: Face, closed: NDArray[np.bool_]) -> tuple[NDArray[np.intp], list[Batch]]:
+    """In which order to keep the triangles, and the batches they then make; what closes comes first: it hides most."""
+    count = len(face.triangles)
+    materials = list(dict.fromkeys(face.materials.values()))
+    whole, number = np.zeros(count, bool), np.zeros(count, np.int64)
+    for name, (first, length) in face.parts.items():
+        part = slice(first, first + length)
+        whole[part] = name.startswith(_WHOLE)
+        if name in face.materials:
+            number[part] = 1 + materials.index(face.materials[name])
+    key = 4 * number + 2 * ~closed + whole
+    order = np.argsort(key, kind="stable")
+    keys, starts = np.unique(key[order], return_index=True)
+    batches = []
+    for kind, start, end in zip(keys.tolist(), starts.tolist(), [*starts.tolist()[1:], count], strict=True):
+        material = materials[kind // 4 - 1] if kind >= 4 else None
+        batches.append(Batch(start, end - start, bool(kind & 1), not kind & 2, material))
+    return order, batches
+
+
+def _texture(texture: Texture) -> int:
+    """Upload a picture, with smaller ones of it for when it is seen from afar."""
+    name = int(GL.glGenTextures(1))
+    GL.glBindTexture(GL.GL_TEXTURE_2D, name)
+    picture = np.ascontiguousarray(texture.picture)
+    height, width = picture.shape[:2]
+    GL.glTexImage2D(GL.GL_TEXTURE_2D, 0, GL.GL_RGBA8, width, height, 0, GL.GL_RGBA, GL.GL_UNSIGNED_BYTE, picture)
+    GL.glGenerateMipmap(GL.GL_TEXTURE_2D)
+    for key, value in (
+        (GL.GL_TEXTURE_MIN_FILTER, GL.GL_LINEAR_MIPMAP_NEAREST),
+        (GL.GL_TEXTURE_MAG_FILTER, GL.GL_LINEAR),
+        (GL.GL_TEXTURE_WRAP_S, _WRAP[texture.wrap[0]]),
+        (GL.GL_TEXTURE_WRAP_T, _WRAP[texture.wrap[1]]),
+    ):
+        GL.glTexParameteri(GL.GL_TEXTURE_2D, key, value)
+    return name

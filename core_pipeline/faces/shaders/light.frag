@@ -1,23 +1,24 @@
 #version 330 core
-// Light on a face: a key with its shadow, soft sky and bounce as fill, a rim from behind on the other
+// Light on what is seen: a key with its shadow, soft sky and bounce as fill, a rim from behind on the other
 // side. All in the camera's space: the face turns, the studio does not.
-in vec3 v_place;
-in vec3 v_normal;
-in vec4 v_colour;     // linear RGB, gloss
-in vec3 v_in_light;
+in vec4 v_in_light;
+in vec3 v_to_eye;
 
+uniform sampler2D surfaces;   // as surface.frag leaves them
+uniform sampler2D facings;
+uniform sampler2D depths;
 uniform sampler2DShadow shadow;
+uniform vec4 deeper;     // from the near plane to the far one, in the shadow map
+uniform mat3 lift;       // how far above the surface to ask for shadow, or it would shade itself
 uniform vec3 key_from;   // unit, towards the key light
 uniform vec3 rim_from;   // unit, towards the light behind
 uniform vec3 key;        // linear RGB of each light
 uniform vec3 sky;
 uniform vec3 bounce;
 uniform vec3 rim_light;
-uniform float cut;       // not 0: the head is cut open
 
 out vec4 pixel;
 
-const vec3 INSIDE = vec3(0.16, 0.10, 0.105);   // of a head cut open; sRGB
 const float PENUMBRA = 0.009;   // of the shadow map's width
 const float BIAS = 0.006;       // of its depth
 
@@ -29,15 +30,15 @@ float arriving(vec3 p) {
 }
 
 void main() {
-    if (cut != 0.0 && !gl_FrontFacing) {
-        pixel = vec4(INSIDE, 1.0);
-        return;
-    }
-    vec3 n = normalize(v_normal);
-    if (!gl_FrontFacing) n = -n;
-    vec3 to_eye = normalize(-v_place);
-    vec3 base = v_colour.rgb;
-    float gloss = v_colour.a;
+    ivec2 here = ivec2(gl_FragCoord.xy);
+    vec4 seen = texelFetch(surfaces, here, 0);
+    vec4 faces = texelFetch(facings, here, 0);
+    vec3 base = seen.rgb * seen.rgb;
+    float gloss = seen.a;
+    vec3 n = normalize(faces.xyz - 0.5);
+    vec3 to_eye = normalize(v_to_eye);
+    vec4 place = v_in_light + texelFetch(depths, here, 0).r * deeper;
+    vec3 in_light = place.xyz / place.w + lift * n;
 
     // Light bleeds round the edge of shade in flesh, and red travels farthest: the wrap is wider where
     // the surface itself is redder than blue. Teeth, eyes and hair keep a neutral edge.
@@ -46,7 +47,7 @@ void main() {
     float facing = dot(n, key_from);
     vec3 lit = clamp((facing + wrap) / (1.0 + wrap), 0.0, 1.0);
     // A shadow is cast on what faces the light; what turns away darkens by itself, and more gently.
-    float free = 1.0 - (1.0 - arriving(v_in_light)) * smoothstep(0.0, 0.5, facing);
+    float free = 1.0 - (1.0 - arriving(in_light)) * smoothstep(0.0, 0.5, facing);
     vec3 through = mix(vec3(0.16) + flesh * vec3(0.16, 0.02, -0.02), vec3(1.0), free);
     vec3 light = key * lit * lit * through + mix(bounce, sky, n.y * 0.5 + 0.5);
 
@@ -68,5 +69,5 @@ void main() {
     float peak = max(colour.r, max(colour.g, colour.b));
     vec3 each = colour * 1.45 / (1.0 + 0.5 * colour);
     colour = mix(colour * (1.45 / (1.0 + 0.5 * peak)), each, 0.35);
-    pixel = vec4(pow(colour, vec3(1.0 / 2.2)), 1.0);
+    pixel = vec4(faces.a < 0.5 ? seen.rgb : pow(colour, vec3(1.0 / 2.2)), 1.0);
 }
