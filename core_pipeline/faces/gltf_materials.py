@@ -16,12 +16,10 @@ from core_pipeline.faces.album import Album, Key, Wraps
 from core_pipeline.faces.face import Floats
 from core_pipeline.faces.gltf_file import GltfFile, Json
 from core_pipeline.faces.obj_colours import SKIN, named_colour
-from core_pipeline.faces.picture_alpha import highest_alpha
+from core_pipeline.faces.picture_alpha import FAINT, VISIBLE, highest_alpha, seen_through
 from core_pipeline.faces.pictures import Picture, Unpacker
 from core_pipeline.faces.texture import Material, Texture, Wrap
 
-#: Alpha below which something that lets light through is never seen at all, or not at this place.
-_VISIBLE, _FAINT = 0.4, 0.05
 #: A material whose colour is as light as that has left all colour to its picture.
 _WHITE = 0.95
 _WRAPS: dict[float, Wrap] = {10497: "repeat", 33071: "clamp", 33648: "mirror"}
@@ -118,15 +116,13 @@ class Materials:
         if mode not in ("MASK", "BLEND"):
             return np.ones(len(triangles), bool), 0.0, False
         soft = mode == "BLEND"
-        least = _FAINT if soft else float(self._gltf.floats([material.get("alphaCutoff", 0.5)], 1)[0])
+        least = FAINT if soft else float(self._gltf.floats([material.get("alphaCutoff", 0.5)], 1)[0])
         alpha = alpha * factor
-        shown = alpha >= (_VISIBLE if soft else least)
+        shown = alpha >= (VISIBLE if soft else least)
         if lying is None or lying.texture.picture[..., 3].min() == 255:
             return shown, 0.0, False
-        alpha = alpha * highest_alpha(lying.texture, lying.texcoords, triangles)
-        shown &= alpha >= least
-        if soft and not (alpha[shown] >= _VISIBLE).any():
-            shown[:] = False  # a cornea, painted thinly
+        where = lying.texture, lying.texcoords, triangles
+        shown &= seen_through(*where, alpha) if soft else alpha * highest_alpha(*where) >= least
         return shown, float(np.clip(least / max(factor, 1e-6), 0, 1)), soft
 
     def _lying(self, primitive: Json, texture: Json) -> _Lying | None:

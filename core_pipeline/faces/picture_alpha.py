@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
 from core_pipeline.faces.face import Floats
 from core_pipeline.faces.texture import Texture, Wrap
 
+#: Alpha below which something that lets light through is never seen at all, or not at this place.
+VISIBLE, FAINT = 0.4, 0.05
 _STEPS = 8
 #: (45, 3) points all over a triangle, an eighth of its edges apart.
 _ALL_OVER = np.array(
@@ -15,6 +19,17 @@ _ALL_OVER = np.array(
 ) / float(_STEPS)
 #: Triangles looked at together.
 _TOGETHER = 20_000
+
+
+def seen_through(
+    texture: Texture, texcoords: Floats, triangles: NDArray[np.uint32], alpha: NDArray[np.floating[Any]] | float
+) -> NDArray[np.bool_]:
+    """(m,) which triangles of a part with soft edges can be seen; none, when all are as thin as a cornea.
+
+    alpha  (m,) what multiplies the picture's; or one for all
+    """
+    most = alpha * highest_alpha(texture, texcoords, triangles)
+    return (most >= FAINT) & bool((most >= VISIBLE).any())
 
 
 def highest_alpha(texture: Texture, texcoords: Floats, triangles: NDArray[np.uint32]) -> Floats:

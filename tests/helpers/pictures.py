@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import zlib
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,14 @@ def png(pixels: Any, kind: str = "PNG") -> bytes:
     out = io.BytesIO()
     Image.fromarray(np.array(pixels, np.uint8)).save(out, kind, **({"lossless": True} if kind == "WEBP" else {}))
     return out.getvalue()
+
+
+def huge_png(side: int) -> bytes:
+    """A picture of a few hundred bytes that announces side × side pixels."""
+    whole = bytearray(png([[[1, 2, 3]]]))
+    whole[16:24] = side.to_bytes(4, "big") * 2
+    whole[29:33] = zlib.crc32(bytes(whole[12:29])).to_bytes(4, "big")
+    return bytes(whole)
 
 
 #: red above green, blue beside: top left, top right, bottom left, bottom right

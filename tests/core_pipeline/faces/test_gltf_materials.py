@@ -4,7 +4,6 @@ import base64
 import cmath
 import io
 import sys
-import zlib
 
 import numpy as np
 import pytest
@@ -17,7 +16,7 @@ from core_pipeline.faces import album
 from core_pipeline.faces.glb import read_glb, read_rig
 from core_pipeline.faces.texture import Material
 from tests.helpers.gltf import tetrahedron
-from tests.helpers.pictures import COLOURS, FOUR, png, seen_colours, textured
+from tests.helpers.pictures import COLOURS, FOUR, huge_png, png, seen_colours, textured
 
 
 def read(tmp_path, gltf):
@@ -204,14 +203,6 @@ def test_a_link_does_not_lead_out_of_the_folder(tmp_path):
     (tmp_path / "skin.png").write_bytes(FOUR)
     (inside / "skin.png").symlink_to(tmp_path / "skin.png")
     assert "outside the file's folder" in refused(inside, textured(uri="skin.png"))
-
-
-def huge_png(side):
-    """A picture of a few hundred bytes that announces side × side pixels."""
-    whole = bytearray(png([[[1, 2, 3]]]))
-    whole[16:24] = side.to_bytes(4, "big") * 2
-    whole[29:33] = zlib.crc32(bytes(whole[12:29])).to_bytes(4, "big")
-    return bytes(whole)
 
 
 @pytest.mark.parametrize("side", [9_000, 20_000, 2**30])
