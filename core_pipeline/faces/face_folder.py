@@ -13,6 +13,7 @@ from core_pipeline.errors import UserError
 from core_pipeline.faces.face import Camera, Face
 from core_pipeline.faces.glb import read_glb
 from core_pipeline.faces.glb_write import write_glb
+from core_pipeline.faces.texture import Material
 
 FORMAT = "lipstitch-face.1"
 
@@ -28,7 +29,10 @@ def load(folder: str | Path) -> Face:
 
 
 def save(face: Face, folder: str | Path) -> None:
-    """Write both files, making the folder. UserError when that cannot be done."""
+    """Write both files, making the folder. UserError when that cannot be done.
+
+    ValueError for a face on which pictures lie: ours have none.
+    """
     place = Path(folder)
     about = {
         "format": FORMAT,
@@ -92,8 +96,28 @@ def _described(face: Face, path: Path, about: dict[str, Any]) -> Face:
             raise UserError(f"{path}: part “{name}” lies outside the face's {len(face.triangles):,} triangles.")
     if not closed <= set(parts):
         raise UserError(f"{path}: it has no parts to be closed named {', '.join(sorted(closed - set(parts)))}.")
-    title = str(about.get("title") or face.name)
-    return replace(face, title=title, camera=camera, pose_map=pose_map, parts=parts, closed=closed)
+    return replace(
+        face,
+        title=str(about.get("title") or face.name),
+        camera=camera,
+        pose_map=pose_map,
+        parts=parts,
+        closed=closed,
+        materials={name: lying for name, part in parts.items() if (lying := _material(face, part, name, path))},
+    )
+
+
+def _material(face: Face, part: tuple[int, int], name: str, path: Path) -> Material | None:
+    """What lies on a part, other than the file's own parts though it may be; UserError when that is several things."""
+    first, end = part[0], sum(part)
+    found = {
+        face.materials.get(own)
+        for own, (start, count) in face.parts.items()
+        if max(start, first) < min(start + count, end)
+    }
+    if len(found) > 1:
+        raise UserError(f"{path}: part “{name}” has several pictures; make it end where they end.")
+    return found.pop() if found else None
 
 
 def _camera_value(key: str, value: Any) -> Any:

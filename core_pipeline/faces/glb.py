@@ -14,14 +14,14 @@ from numpy.typing import NDArray
 
 from core_pipeline.faces import draco
 from core_pipeline.faces.face import Face, Floats
-from core_pipeline.faces.finer import MOST_TRIANGLES, Finer, head_box
 from core_pipeline.faces.framing import frame
-from core_pipeline.faces.gltf_colours import Colours
 from core_pipeline.faces.gltf_file import GltfFile, Json
+from core_pipeline.faces.gltf_materials import Materials
 from core_pipeline.faces.gltf_scene import Matrix, Scene
 from core_pipeline.faces.limits import LARGEST, MAX_MORPH_BYTES, MAX_TRIANGLES, MAX_VERTICES
-from core_pipeline.faces.normals import VertexNormals, seam_groups, shape_normals
+from core_pipeline.faces.normals import shape_normals
 from core_pipeline.faces.steps import Report, Steps, silent
+from core_pipeline.faces.texture import Material, Texture
 from core_pipeline.faces.vrm import expressions
 from core_pipeline.files.json_text import shown
 
@@ -37,15 +37,14 @@ def read_glb(path: str | Path) -> Face:
 def read_rig(path: Path, report: Report = silent) -> tuple[Face, list[Path], tuple[str, ...]]:
     """The face in a file, all the files it was read from, and what is odd about it.
 
-    `report` is told after every shape. UserError as for `read_glb`.
+    `report` is told after every part and shape. UserError as for `read_glb`.
     """
     gltf = GltfFile(path)
-    scene, colours = Scene(gltf), Colours(gltf)
+    scene = Scene(gltf)
     planned = _planned(gltf, scene)
-    step = Steps(sum(1 + 2 * len(plan.names) for plan in planned), report)
+    step = Steps(sum(2 + 2 * len(plan.names) for plan in planned), report)
     patches = [_patch(gltf, scene, plan, step) for plan in planned]
-    _colour(colours, patches, planned)
-    face = _join(gltf, patches, step)
+    face = _join(gltf, patches, _dress(gltf, patches, planned, step), step)
     return replace(face, expressions=_expressions(gltf, planned, face.shapes)), gltf.files, tuple(gltf.notes)
 
 
@@ -96,6 +95,8 @@ class _Patch:
     normals: Floats
     colours: Floats
     deltas: dict[str, Floats] = field(default_factory=dict)
+    material: Material | None = None
+    texcoords: Floats | None = None
 
 
 def _primitives(gltf: GltfFile, node: Json, matrix: Matrix) -> list[_Plan]:
@@ -151,7 +152,7 @@ def _expressions(gltf: GltfFile, plans: list[_Plan], shapes: tuple[str, ...]) ->
 
 
 def _patch(gltf: GltfFile, scene: Scene, plan: _Plan, step: Steps) -> _Patch:
-    """A primitive where the scene puts it; not coloured yet."""
+    """A primitive where the scene puts it; not dressed yet."""
     primitive, title = plan.primitive, plan.title
     attributes, targets = gltf.part(primitive, "attributes"), gltf.parts(primitive, "targets")
     count = gltf.count(attributes["POSITION"])
@@ -175,27 +176,16 @@ def _patch(gltf: GltfFile, scene: Scene, plan: _Plan, step: Steps) -> _Patch:
     return patch
 
 
-def _colour(colours: Colours, patches: list[_Patch], plans: list[_Plan]) -> None:
-    """Give every patch its colours, and finer triangles round the head where its picture shows more than they can."""
-    box = head_box([(patch.positions, patch.deltas.values()) for patch in patches])
-    shapes = len({name for patch in patches for name in patch.deltas})
-    vertices = sum(len(patch.positions) for patch in patches)
-    room = MOST_TRIANGLES - sum(len(patch.triangles) for patch in patches)
-    if (vertices + max(room, 0)) * shapes * 24 > MAX_MORPH_BYTES:
-        room = 0
-    # small parts first: eyes want little and need it most
-    for patch, plan in sorted(zip(patches, plans, strict=True), key=lambda both: len(both[0].triangles)):
-        count, finer = len(patch.positions), Finer(patch.triangles)
-        if box is not None:
-            finer = colours.finer(plan.primitive, patch.positions, patch.triangles, box, room)
-            room -= len(finer.triangles) - len(patch.triangles)
-        surface = colours.of(plan.primitive, plan.title, count, finer)
-        if finer.rounds:
-            if not patch.normals.any():  # those of the flat triangles as they were, or facets would show
-                patch.normals = VertexNormals(patch.triangles, seam_groups(patch.positions)).of(patch.positions)
-            patch.positions, patch.normals = finer.of(patch.positions), _unit(finer.of(patch.normals))
-            patch.deltas = {name: finer.of(delta) for name, delta in patch.deltas.items()}
-        patch.triangles, patch.colours = finer.triangles[surface.shown], surface.colours
+def _dress(gltf: GltfFile, patches: list[_Patch], plans: list[_Plan], step: Steps) -> tuple[Texture, ...]:
+    """Give every patch its colours, and what lies on it; all that lies on them."""
+    materials = Materials(gltf)
+    # what moves first: should the pictures be too many, those of the face stay largest
+    for patch, plan in sorted(zip(patches, plans, strict=True), key=lambda both: not both[0].deltas):
+        surface = materials.of(plan.primitive, plan.title, len(patch.positions), patch.triangles)
+        patch.triangles, patch.colours = patch.triangles[surface.shown], surface.colours
+        patch.material, patch.texcoords = surface.material, surface.texcoords
+        step()
+    return materials.album.textures()
 
 
 def _same_counts(gltf: GltfFile, title: str, count: int, attributes: Json, targets: list[Json]) -> None:
@@ -240,7 +230,7 @@ def _triangles(gltf: GltfFile, primitive: Json, count: int, title: str) -> NDArr
     return corners.astype(np.uint32)
 
 
-def _join(gltf: GltfFile, patches: list[_Patch], step: Steps) -> Face:
+def _join(gltf: GltfFile, patches: list[_Patch], textures: tuple[Texture, ...], step: Steps) -> Face:
     sizes = [len(patch.positions) for patch in patches]
     shapes = tuple(dict.fromkeys(name for patch in patches for name in patch.deltas))
     if not shapes:
@@ -259,6 +249,7 @@ def _join(gltf: GltfFile, patches: list[_Patch], step: Steps) -> Face:
     for patch, start in zip(patches, first, strict=False):
         for name, delta in patch.deltas.items():
             deltas[shapes.index(name), start : start + len(delta)] = delta
+    parts = _parts(patches)
     stored = np.concatenate([patch.normals for patch in patches])
     normals, normal_deltas = shape_normals(positions, triangles, deltas, stored, step)
     return Face(
@@ -271,12 +262,22 @@ def _join(gltf: GltfFile, patches: list[_Patch], step: Steps) -> Face:
         shapes=shapes,
         deltas=deltas,
         normal_deltas=normal_deltas,
-        parts=_parts(patches),
+        parts=parts,
         camera=frame(positions),
+        textures=textures,
+        materials={name: p.material for name, p in zip(parts, patches, strict=True) if p.material is not None},
+        texcoords=_texcoords(patches) if textures else None,
     )
 
 
+def _texcoords(patches: list[_Patch]) -> Floats:
+    """(n, 2), zero where no picture lies."""
+    plain = (np.zeros((len(p.positions), 2), np.float32) if p.texcoords is None else p.texcoords for p in patches)
+    return np.concatenate(list(plain))
+
+
 def _parts(patches: list[_Patch]) -> dict[str, tuple[int, int]]:
+    """One part for each patch, in their order."""
     parts: dict[str, tuple[int, int]] = {}
     first = 0
     for patch in patches:

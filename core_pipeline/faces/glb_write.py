@@ -18,7 +18,10 @@ _COMPONENTS = {"f": 5126, "u": 5125}
 
 
 def write_glb(face: Face, path: str | Path) -> None:
-    """Write `face`; the same face gives the same bytes. UserError when the file cannot be written."""
+    """Write `face`; the same face gives the same bytes. UserError when the file cannot be written.
+
+    ValueError as for `glb_bytes`.
+    """
     try:
         Path(path).write_bytes(glb_bytes(face))
     except OSError as error:
@@ -26,7 +29,9 @@ def write_glb(face: Face, path: str | Path) -> None:
 
 
 def glb_bytes(face: Face) -> bytes:
-    """The file as bytes."""
+    """The file as bytes. ValueError for a face on which pictures lie: ours have none."""
+    if face.textures:
+        raise ValueError(f"{face.name}: a face with pictures cannot be written")
     pack = _Pack()
     attributes = {
         "POSITION": pack.add(face.positions, "VEC3", _VERTICES, bounds=True),

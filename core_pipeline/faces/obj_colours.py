@@ -1,27 +1,20 @@
-"""Colours for .obj faces: what the files say, else what the names of their parts suggest.
+"""Colours for faces without pictures: what the names of their parts suggest.
 
-Poses come without pictures: teeth and eyes in the colour of skin could not be read, and the clear shells before an
-eye would hide it.
+Teeth and eyes in the colour of skin could not be read, and the clear shells before an eye would hide it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from pathlib import Path
-
 import numpy as np
 from numpy.typing import NDArray
 
-from core_pipeline.errors import UserError
 from core_pipeline.faces.face import Floats
-from core_pipeline.files.atomic import read_bytes
 
 Colour = tuple[float, float, float, float]
 
 #: Linear RGB and gloss.
 SKIN: Colour = (0.62, 0.42, 0.34, 0.35)
 _CLEAR: Colour = (0.0, 0.0, 0.0, -1.0)
-_MAX_MTL = 2**20
 
 #: Words in the names of parts and materials, most telling first; a rig's own names, in English as they all are.
 _BY_NAME: tuple[tuple[tuple[str, ...], Colour], ...] = (
@@ -36,19 +29,6 @@ _BY_NAME: tuple[tuple[tuple[str, ...], Colour], ...] = (
 )
 
 
-def part_colours(names: Sequence[str], folder: Path, library: str | None) -> list[Colour | None]:
-    """A colour for each name ("group material"), None for a part that is not to be seen.
-
-    library  the material file the .obj names, if any; only one in `folder` is read
-    """
-    known = _library(folder, library) if library else {}
-    colours: list[Colour | None] = []
-    for name in names:
-        colour = named_colour(name) or known.get(name.rpartition(" ")[2], SKIN)
-        colours.append(None if colour == _CLEAR else colour)
-    return colours
-
-
 def named_colour(name: str) -> Colour | None:
     """What a part's name suggests; None when it suggests nothing. Fourth place below 0: not to be seen."""
     plain = name.casefold()
@@ -60,34 +40,3 @@ def linear(colours: NDArray[np.float64]) -> Floats:
     unit = np.clip(colours / (255 if colours.max(initial=0) > 1 else 1), 0, 1)
     rgb: Floats = np.where(unit <= 0.04045, unit / 12.92, ((unit + 0.055) / 1.055) ** 2.4).astype(np.float32)
     return rgb
-
-
-def _library(folder: Path, name: str) -> dict[str, Colour]:
-    """Material → its diffuse colour, of those that have one worth showing."""
-    path = folder / name
-    try:
-        if "\0" in name or path.resolve().parent != folder.resolve():
-            return {}
-        text = read_bytes(path, _MAX_MTL, "material").decode("utf-8", "replace")
-    except (UserError, OSError):
-        return {}  # a face without its colours is still a face
-    found: dict[str, Colour] = {}
-    material = ""
-    for line in text.splitlines():
-        words = line.split()
-        if words[:1] == ["newmtl"]:
-            material = words[-1]
-        elif words[:1] == ["Kd"] and (rgb := _three(words[1:])) is not None and len(set(rgb)) > 1:  # grey: never set
-            red, green, blue = linear(np.array(rgb)).tolist()
-            found[material] = (red, green, blue, 0.35)
-        elif words[:1] == ["d"] and len(words) == 2 and words[1] in ("0", "0.0", "0.000000"):
-            found[material] = _CLEAR
-    return found
-
-
-def _three(words: list[str]) -> list[float] | None:
-    try:
-        numbers = [float(word) for word in words]
-    except ValueError:
-        return None
-    return numbers if len(numbers) == 3 and all(0 <= number <= 1 for number in numbers) else None

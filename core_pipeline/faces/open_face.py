@@ -14,7 +14,7 @@ from core_pipeline.faces.face import Face
 from core_pipeline.faces.framing import head_camera, head_height, turned_upright
 from core_pipeline.faces.glb import read_rig
 from core_pipeline.faces.mapping_json import load_mapping, mapping_path
-from core_pipeline.faces.obj_folder import read_obj_folder
+from core_pipeline.faces.obj_folder import read_obj_rig
 from core_pipeline.faces.retarget import OWN_NAMES, Mix, Preset, Retarget, best
 from core_pipeline.faces.steps import Report, silent
 from core_pipeline.files.atomic import reason
@@ -83,10 +83,9 @@ def _rig(path: Path, cache: Path | None, report: Report) -> Read:
 def _read(path: Path, report: Report) -> tuple[Face, list[Path], tuple[str, ...]]:
     """The face, the files it was read from, and notes."""
     if path.is_dir():
-        files = _obj_files(path)
-        if not files:
+        if not _obj_files(path):
             raise UserError(f"{path}: there is neither a face.glb nor any .obj file; choose a folder of poses.")
-        face, notes = read_obj_folder(path, report)
+        face, files, notes = read_obj_rig(path, report)
         return face, [path, *files], notes
     kind = path.suffix.casefold()
     if kind == ".obj":

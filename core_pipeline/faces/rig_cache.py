@@ -10,7 +10,7 @@ import os
 import sys
 import zipfile
 from collections.abc import Iterable
-from dataclasses import asdict
+from dataclasses import asdict, astuple
 from pathlib import Path
 from typing import Any
 
@@ -19,13 +19,15 @@ import numpy as np
 from core_pipeline.errors import UserError
 from core_pipeline.faces.face import Camera, Face
 from core_pipeline.faces.limits import MAX_FILE
+from core_pipeline.faces.texture import Material, Texture
 from core_pipeline.files.atomic import write_atomically
 
-FORMAT = "lipstitch-rig-cache.2"
+FORMAT = "lipstitch-rig-cache.3"
 #: Bytes of all rigs kept; the ones opened longest ago go first.
 MAX_KEPT = 2**30
 
-_ARRAYS = ("positions", "normals", "triangles", "colours", "deltas", "normal_deltas")
+_ARRAYS = ("positions", "normals", "triangles", "colours", "deltas", "normal_deltas", "texcoords")
+_PICTURE = "picture {}"
 
 
 def user_cache() -> Path:
@@ -48,7 +50,8 @@ def recall(rig: Path, cache: Path) -> tuple[Face, tuple[str, ...]] | None:
             about = json.loads(str(kept["about"]))
             if about["format"] != FORMAT or about["files"] != _stamps(Path(name) for name, *_ in about["files"]):
                 return None
-            arrays: dict[str, Any] = {name: kept[name] for name in _ARRAYS}
+            arrays: dict[str, Any] = {name: kept[name] for name in _ARRAYS if name in kept}
+            pictures = [kept[_PICTURE.format(number)] for number in range(about["pictures"])]
         camera = about["camera"] | {"target": tuple(about["camera"]["target"])}
         face = Face(
             name=about["name"],
@@ -57,10 +60,12 @@ def recall(rig: Path, cache: Path) -> tuple[Face, tuple[str, ...]] | None:
             parts={name: (first, count) for name, (first, count) in about["parts"].items()},
             expressions=about["expressions"],
             camera=Camera(**camera),
+            textures=tuple(Texture(pictures[number], (across, down)) for number, across, down in about["textures"]),
+            materials={name: Material(*material) for name, material in about["materials"].items()},
             **arrays,
         )
         path.touch()  # opened just now
-    except (OSError, ValueError, KeyError, TypeError, AttributeError, EOFError, zipfile.BadZipFile):
+    except (OSError, ValueError, KeyError, IndexError, TypeError, AttributeError, EOFError, zipfile.BadZipFile):
         return None  # made again, then
     return face, tuple(about["notes"])
 
@@ -71,6 +76,8 @@ def keep(rig: Path, files: Iterable[Path], face: Face, notes: tuple[str, ...], c
     files  all that was read for it, and folders in which a new file would matter
     A cache that cannot be written is no reason to fail.
     """
+    pictures = {id(texture.picture): texture.picture for texture in face.textures}  # two may share one
+    numbers = {key: number for number, key in enumerate(pictures)}
     about = {
         "format": FORMAT,
         "files": _stamps(files),
@@ -80,9 +87,13 @@ def keep(rig: Path, files: Iterable[Path], face: Face, notes: tuple[str, ...], c
         "parts": face.parts,
         "expressions": face.expressions,
         "camera": asdict(face.camera),
+        "pictures": len(pictures),
+        "textures": [(numbers[id(texture.picture)], *texture.wrap) for texture in face.textures],
+        "materials": {name: astuple(material) for name, material in face.materials.items()},
         "notes": notes,
     }
-    arrays: dict[str, Any] = {name: getattr(face, name) for name in _ARRAYS}
+    arrays: dict[str, Any] = {name: getattr(face, name) for name in _ARRAYS if getattr(face, name) is not None}
+    arrays |= {_PICTURE.format(number): picture for number, picture in enumerate(pictures.values())}
     if sum(array.nbytes for array in arrays.values()) > MAX_FILE:
         return
     packed = io.BytesIO()

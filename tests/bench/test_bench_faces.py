@@ -8,8 +8,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from core_pipeline.faces import rig_cache
+from core_pipeline.faces.album import MAX_BYTES
 from core_pipeline.faces.blend import Blend
 from core_pipeline.faces.open_face import open_face
+from core_pipeline.faces.texture import Material, Texture
 from core_pipeline.poses import FACEFX
 from tests.helpers.budget import within
 from tests.helpers.rigs import NAMES, PRESETS, as_glb, as_objs, head
@@ -37,6 +40,23 @@ def test_open_it_again(benchmark, rig, tmp_path):
     open_face(path, PRESETS, cache=tmp_path / "cache")
     found = benchmark(open_face, path, PRESETS, cache=tmp_path / "cache")
     assert len(found.face.shapes) == 50
+    within(benchmark, 0.2)
+
+
+def test_open_it_again_with_as_many_pictures_as_a_rig_may_have(benchmark, rig, tmp_path):
+    path, cache = as_glb(rig, tmp_path / "head.glb"), tmp_path / "cache"
+    face = open_face(path, PRESETS).face
+    pictures = np.random.default_rng(1).integers(0, 256, (4, 2048, 2048, 4), np.uint8)
+    assert pictures.nbytes == MAX_BYTES
+    dressed = replace(
+        face,
+        textures=tuple(map(Texture, pictures)),
+        materials=dict.fromkeys(face.parts, Material(3)),
+        texcoords=face.positions[:, :2],
+    )
+    rig_cache.keep(path, [path], dressed, (), cache)
+    found = benchmark(open_face, path, PRESETS, cache=cache)
+    assert len(found.face.textures) == 4
     within(benchmark, 0.2)
 
 

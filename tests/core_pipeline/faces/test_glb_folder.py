@@ -3,12 +3,15 @@
 import json
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from core_pipeline.errors import UserError
 from core_pipeline.faces.face import Camera
 from core_pipeline.faces.face_folder import load, save
+from core_pipeline.faces.texture import Material
 from tests.helpers.ball import ball
+from tests.helpers.pictures import png, textured
 
 BALL = replace(
     ball(),
@@ -113,3 +116,38 @@ def test_saving_where_one_cannot(tmp_path):
     (tmp_path / "file").write_text("in the way", "utf-8")
     with pytest.raises(UserError, match="cannot be written"):
         save(BALL, tmp_path / "file")
+
+
+# --- a file with pictures, put into such a folder
+
+
+@pytest.fixture
+def pictured(tmp_path):
+    """Two parts of four triangles, each with a picture of its own."""
+    gltf = textured()
+    gltf.mesh()["primitives"].append({**gltf.primitive(), "material": 1})
+    gltf.json["images"].append({"bufferView": gltf.view(np.frombuffer(png([[[7, 8, 9]]]), np.uint8))})
+    gltf.json["textures"].append({"source": 1})
+    gltf.json["materials"].append({"pbrMetallicRoughness": {"baseColorTexture": {"index": 1}}})
+    (tmp_path / "face.glb").write_bytes(gltf.glb())
+    (tmp_path / "face.json").write_text(json.dumps({"format": "lipstitch-face.1"}), "utf-8")
+    return tmp_path
+
+
+def test_pictures_stay_on_their_triangles_whatever_the_parts_are_called(pictured):
+    assert dict(load(pictured).materials) == {"tetra": Material(0), "tetra 2": Material(1)}
+    change(pictured, parts={"nose": [1, 2], "ear": [4, 4], "nothing": [0, 0]})
+    face = load(pictured)
+    assert dict(face.materials) == {"nose": Material(0), "ear": Material(1)}
+    assert len(face.textures) == 2
+
+
+def test_a_part_with_two_pictures(pictured):
+    change(pictured, parts={"both": [2, 4]})
+    with pytest.raises(UserError, match=r"face\.json: part “both” has several pictures"):
+        load(pictured)
+
+
+def test_pictures_cannot_be_saved(pictured, tmp_path):
+    with pytest.raises(ValueError, match="a face with pictures cannot be written"):
+        save(load(pictured), tmp_path / "copy")

@@ -1,21 +1,17 @@
-"""Avatars as exporters write them: pictures, see-through cards, names anywhere, and files spoiled on purpose."""
+"""Avatars as exporters write them: names anywhere, instances without end, and files spoiled on purpose."""
 
-import base64
-import io
 import random
-import sys
 import time
-import zlib
 
 import numpy as np
 import pytest
-from PIL import Image
 
 from core_pipeline.errors import UserError
 from core_pipeline.faces import glb
 from core_pipeline.faces.glb import read_glb, read_rig
 from tests.helpers.gltf import Gltf, tetrahedron
 from tests.helpers.meshopt_streams import packed_tetrahedron
+from tests.helpers.pictures import textured
 
 
 def read(tmp_path, gltf, name="face.glb"):
@@ -33,166 +29,6 @@ def refused(tmp_path, gltf, name="face.glb"):
         read(tmp_path, gltf, name)
     assert "\n" not in str(caught.value)
     return str(caught.value)
-
-
-# --- pictures
-
-
-def png(pixels, kind="PNG"):
-    out = io.BytesIO()
-    Image.fromarray(np.array(pixels, np.uint8)).save(out, kind, **({"lossless": True} if kind == "WEBP" else {}))
-    return out.getvalue()
-
-
-#: red above green, blue beside: top left, top right, bottom left, bottom right
-FOUR = png([[[255, 0, 0], [0, 0, 255]], [[0, 188, 0], [255, 255, 255]]])
-
-
-def textured(picture=FOUR, places=((0.1, 0.1), (0.9, 0.1), (0.1, 0.9), (0.9, 0.9)), uri=None, **material):
-    gltf = tetrahedron()
-    coordinates = gltf.view(np.array(places, np.float32))
-    gltf.json["accessors"].append({"bufferView": coordinates, "componentType": 5126, "count": 4, "type": "VEC2"})
-    gltf.primitive()["attributes"]["TEXCOORD_0"] = len(gltf.json["accessors"]) - 1
-    gltf.primitive()["material"] = 0
-    image = {"uri": uri} if uri else {"bufferView": gltf.view(np.frombuffer(picture, np.uint8))}
-    gltf.json["images"] = [image]
-    gltf.json["textures"] = [{"source": 0}]
-    surface = {"baseColorTexture": {"index": 0}, "roughnessFactor": 1} | material.pop("surface", {})
-    gltf.json["materials"] = [{"pbrMetallicRoughness": surface} | material]
-    return gltf
-
-
-GREEN = 0.5028865
-COLOURS = [[1, 0, 0], [0, 0, 1], [0, GREEN, 0], [1, 1, 1]]
-
-
-@pytest.mark.parametrize("kind", ["PNG", "WEBP"])
-def test_a_picture_becomes_linear_vertex_colours(tmp_path, kind):
-    pixels = np.asarray(Image.open(io.BytesIO(FOUR)))
-    colours = read(tmp_path, textured(png(pixels, kind))).colours
-    np.testing.assert_allclose(colours[:, :3], COLOURS, atol=1e-4)
-    np.testing.assert_array_equal(colours[:, 3], 0)
-
-
-def test_the_materials_colour_tints_it(tmp_path):
-    gltf = textured(surface={"baseColorFactor": [0.5, 1, 0.25, 1]})
-    np.testing.assert_allclose(read(tmp_path, gltf).colours[:, :3], np.array(COLOURS) * [0.5, 1, 0.25], atol=1e-4)
-
-
-def test_coordinates_wrap_as_the_sampler_says(tmp_path):
-    places = ((-0.1, 0.1), (1.1, 0.1), (0.1, 1.1), (2.4, -0.9))
-    repeated = [COLOURS[1], COLOURS[0], COLOURS[0], COLOURS[0]]
-    clamped = [COLOURS[0], COLOURS[1], COLOURS[2], COLOURS[1]]
-    mirrored = [COLOURS[0], COLOURS[1], COLOURS[2], COLOURS[2]]
-    for mode, expected in ((10497, repeated), (33071, clamped), (33648, mirrored)):
-        gltf = textured(places=places)
-        gltf.json["samplers"] = [{"wrapS": mode, "wrapT": mode}]
-        gltf.json["textures"][0]["sampler"] = 0
-        np.testing.assert_allclose(read(tmp_path, gltf).colours[:, :3], expected, atol=1e-4, err_msg=str(mode))
-
-
-def test_a_moved_texture(tmp_path):
-    gltf = textured(places=[(0.1, 0.1)] * 4)
-    move = {"KHR_texture_transform": {"offset": [0.4, 0], "scale": [2, 1]}}
-    gltf.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"] = move
-    gltf.json["extensionsRequired"] = ["KHR_texture_transform"]
-    np.testing.assert_allclose(read(tmp_path, gltf).colours[:, :3], [COLOURS[1]] * 4, atol=1e-4)
-
-
-def test_a_picture_beside_the_file_or_inside_its_text(tmp_path):
-    (tmp_path / "skin.png").write_bytes(FOUR)
-    for uri in ("skin.png", "data:image/png;base64," + base64.b64encode(FOUR).decode()):
-        np.testing.assert_allclose(read(tmp_path, textured(uri=uri)).colours[:, :3], COLOURS, atol=1e-4)
-    for uri in ("../skin.png", "/etc/hostname", "http://example.org/skin.png", "file:///skin.png"):
-        assert "outside the file's folder" in refused(tmp_path, textured(uri=uri))
-
-
-def test_a_link_does_not_lead_out_of_the_folder(tmp_path):
-    inside = tmp_path / "inside"
-    inside.mkdir()
-    (tmp_path / "skin.png").write_bytes(FOUR)
-    (inside / "skin.png").symlink_to(tmp_path / "skin.png")
-    assert "outside the file's folder" in refused(inside, textured(uri="skin.png"))
-
-
-def huge_png(side):
-    """A picture of a few hundred bytes that announces side × side pixels."""
-    whole = bytearray(png([[[1, 2, 3]]]))
-    whole[16:24] = side.to_bytes(4, "big") * 2
-    whole[29:33] = zlib.crc32(bytes(whole[12:29])).to_bytes(4, "big")
-    return bytes(whole)
-
-
-@pytest.mark.parametrize("side", [9_000, 20_000, 2**30])
-def test_image_bombs_are_refused_unopened(tmp_path, side):
-    assert "pixels" in refused(tmp_path, textured(huge_png(side)))
-
-
-@pytest.mark.parametrize("raw", [b"", b"no picture at all", FOUR[:40], b"GIF89a" + bytes(50), huge_png(64)])
-def test_pictures_that_cannot_be_read_leave_the_plain_colour(tmp_path, raw):
-    gltf = textured(raw or b"\0", surface={"baseColorFactor": [0.5, 0.5, 0.5, 1]})
-    assert any("Image 0 cannot be read" in note for note in notes(tmp_path, gltf))
-    np.testing.assert_allclose(read(tmp_path, gltf).colours[:, :3], 0.5)
-
-
-def test_pictures_of_a_foreign_kind_are_told(tmp_path):
-    gltf = textured()
-    gltf.json["textures"] = [{"extensions": {"MSFT_texture_dds": {"source": 0}}}]
-    assert any("format that cannot be read" in note for note in notes(tmp_path, gltf))
-
-
-#: FOUR as 16 × 16 pixels of Basis Universal (ETC1S), by the reference encoder
-FOUR_KTX = base64.b64decode(
-    "q0tUWCAyMLsNChoKAAAAAAEAAAAQAAAAEAAAAAAAAAAAAAAAAQAAAAEAAAABAAAAaAAAACwAAACUAAAAJAAAALgAAAAAAAAAjgAA"
-    "AAAAAABGAQAAAAAAAAQAAAAAAAAAAAAAAAAAAAAsAAAAAAAAAAIAKACjAQIAAwMAAAgAAAAAAAAAAAA/AAAAAAAAAAAA/////x8A"
-    "AABLVFh3cml0ZXIAQmFzaXMgVW5pdmVyc2FsIDIuMTAAAAQAAgAuAAAACQAAAC8AAAAAAAAAAAAAAAAAAAAEAAAAAAAAAAAAAAAg"
-    "wJQAAAAAABDkCyMRwEQAAAAAAACSQAIwBUAAAAAAgOQJACYAAAAAAAAQmGgErKqqqlJVVVUFFMBEAAAAAAAAEkEAmAAAAAAAAEAY"
-    "AqIEDAAAAMLGJZIIRDkCMAMAAAAAAIAkIABIzWEF"
-)
-
-
-def in_ktx(raw=FOUR_KTX, places=((0.2, 0.2), (0.8, 0.2), (0.2, 0.8), (0.8, 0.8)), **material):
-    gltf = textured(raw, places, **material)
-    gltf.json["textures"] = [{"extensions": {"KHR_texture_basisu": {"source": 0}}}]
-    gltf.json["extensionsRequired"] = ["KHR_texture_basisu"]
-    return gltf
-
-
-def test_a_ktx_picture(tmp_path):
-    pytest.importorskip("opengl_basisu", reason="it has no wheel for this platform")
-    colours = read(tmp_path, in_ktx()).colours[:4, :3]
-    np.testing.assert_allclose(colours, COLOURS, atol=0.04)
-
-
-def test_ktx_bombs_and_damage(tmp_path):
-    pytest.importorskip("opengl_basisu", reason="it has no wheel for this platform")
-    bomb = FOUR_KTX[:20] + (2**31).to_bytes(4, "little") + FOUR_KTX[24:]
-    assert "more than we take" in refused(tmp_path, in_ktx(bomb))
-    for raw in (FOUR_KTX[:12], FOUR_KTX[:60], FOUR_KTX[:200], FOUR_KTX[:80] + b"\xff" * (len(FOUR_KTX) - 80)):
-        assert "Image 0 cannot be read: what it covers shows a plain colour." in notes(tmp_path, in_ktx(raw))
-
-
-def test_without_its_package_a_ktx_picture_is_told_and_names_give_the_colours(tmp_path, monkeypatch):
-    monkeypatch.setitem(sys.modules, "opengl_basisu", None)
-    gltf = in_ktx()
-    found = {}
-    for name in ("head", "eyeLeft", "teeth"):
-        gltf.json["nodes"][0]["name"] = name
-        found[name] = read(tmp_path, gltf).colours[0, :3]
-    assert found["head"][0] > 1.3 * found["head"][2], "skin is redder than blue"
-    assert np.ptp(found["eyeLeft"]) < 0.1
-    assert found["teeth"].min() > found["head"].max()
-    assert any("lipstitch[ktx]" in note for note in notes(tmp_path, gltf))
-
-
-def test_what_cannot_be_seen_is_left_out(tmp_path):
-    """A lash card: transparent but for its lower right."""
-    card = png([[[0, 0, 0, 0], [0, 0, 0, 0]], [[0, 0, 0, 0], [9, 9, 9, 255]]])
-    places = ((0.9, 0.9), (0.9, 0.8), (0.8, 0.9), (-0.9, -0.9))
-    for mode, count in (("OPAQUE", 4), ("MASK", 1), ("BLEND", 1)):
-        assert len(read(tmp_path, textured(card, places, alphaMode=mode)).triangles) == count, mode
-    cornea = textured(surface={"baseColorFactor": [1, 1, 1, 0.1]}, alphaMode="BLEND")
-    assert "no triangles" in refused(tmp_path, cornea)
 
 
 # --- names
@@ -248,8 +84,8 @@ def test_it_tells_how_far_it_is_and_can_be_ended_there(tmp_path):
     read_rig(tmp_path / "face.glb", told)
     whole = shares.copy()
     assert whole == sorted(whole)
-    assert (whole[0], len(whole)) == (0, 6)
-    for end in range(1, 7):
+    assert (whole[0], len(whole)) == (0, 8)
+    for end in range(1, 9):
         shares.clear()
         with pytest.raises(UserError, match="cancelled"):
             read_rig(tmp_path / "face.glb", told)
@@ -347,6 +183,7 @@ def test_a_spoiled_file_is_a_face_or_a_sentence_and_soon(tmp_path, spoil):
             assert np.isfinite(face.normals).all()
             assert np.isfinite(face.deltas).all()
             assert face.triangles.max() < len(face.positions)
+            assert face.texcoords is None or np.isfinite(face.texcoords).all()
         assert time.monotonic() - begun < 2, f"file {number}"
     assert faces > 10, "some damage does not matter"
     assert len(sentences) > 20, "and much of it does"

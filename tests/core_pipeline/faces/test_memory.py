@@ -106,17 +106,29 @@ def bind_bomb():
     return gltf
 
 
-def image_bomb(width, height):
-    """A PNG of one colour that announces many pixels, and keeps its word."""
+def image_bomb(width, height, bits=1, kind=0):
+    """A PNG of one colour that announces many pixels, and keeps its word; `kind` as in PNG, 0 for grey, 6 for RGBA."""
 
     def chunk(kind, body):
         return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
 
     rows = zlib.compressobj(9)
-    body = b"".join(rows.compress(bytes(width // 8 + 1)) for _ in range(height)) + rows.flush()
-    head = struct.pack(">IIBBBBB", width, height, 1, 0, 0, 0, 0)
+    body = b"".join(rows.compress(bytes(width * bits // 8 + 1)) for _ in range(height)) + rows.flush()
+    head = struct.pack(">IIBBBBB", width, height, bits // (4 if kind == 6 else 1), kind, 0, 0, 0)
     png = b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", body) + chunk(b"IEND", b"")
     return pictured(png)
+
+
+def many_pictures(number, side):
+    """Each one is small enough; all of them are not."""
+    gltf = image_bomb(side, side)
+    gltf.json["images"] *= number
+    gltf.json["textures"] = [{"source": source} for source in range(number)]
+    gltf.json["materials"] = [
+        {"pbrMetallicRoughness": {"baseColorTexture": {"index": index}}} for index in range(number)
+    ]
+    gltf.mesh()["primitives"] = [{**gltf.primitive(), "material": index} for index in range(number)]
+    return gltf
 
 
 def large_webp():
@@ -187,6 +199,8 @@ FILES = {
     "bind bomb.glb": bind_bomb,
     "image bomb.glb": lambda: image_bomb(20_000, 20_000),
     "large image.glb": lambda: image_bomb(8_184, 8_184),
+    "large see-through image.glb": lambda: image_bomb(8_184, 8_184, 32, 6),
+    "many pictures.glb": lambda: many_pictures(50, 4_096),
     "large webp.glb": large_webp,
     "base64 bomb.gltf": lambda: inline(140 * 2**20),
     "long base64.gltf": lambda: inline(100 * 2**20),
@@ -255,5 +269,11 @@ def test_memory_stays_within_its_budget(results, name):
 
 
 def test_what_is_only_large_is_still_a_face(results):
-    for name in ("plain.glb", "large image.glb", "half a gigabyte.glb"):
+    for name in (
+        "plain.glb",
+        "large image.glb",
+        "large see-through image.glb",
+        "many pictures.glb",
+        "half a gigabyte.glb",
+    ):
         assert results[name][0] == "a face", name

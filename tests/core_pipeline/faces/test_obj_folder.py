@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from core_pipeline.errors import UserError
-from core_pipeline.faces import obj_folder
+from core_pipeline.faces import obj_file, obj_folder
 from core_pipeline.faces.limits import MAX_TEXT
 from core_pipeline.faces.obj_colours import SKIN
 from core_pipeline.faces.obj_folder import read_obj_folder
@@ -144,14 +144,14 @@ def test_sizes_are_checked_before_memory_is_taken(tmp_path, monkeypatch):
         file.truncate(MAX_TEXT + 1)
     assert "larger than 128 MB" in refused(tmp_path)
     huge.write_text(QUAD)
-    for limit, value, why in (
-        ("MAX_LINES", 4, "more than 4 lines"),
-        ("MAX_VERTICES", 3, "4 vertices, more than 3"),
-        ("MAX_POSES", 0, "more than 0"),
-        ("MAX_MORPH_BYTES", 95, "4 vertices × 1 poses"),
+    for room, limit, value, why in (
+        (obj_file, "MAX_LINES", 4, "more than 4 lines"),
+        (obj_file, "MAX_VERTICES", 3, "4 vertices, more than 3"),
+        (obj_folder, "MAX_POSES", 0, "more than 0"),
+        (obj_folder, "MAX_MORPH_BYTES", 95, "4 vertices × 1 poses"),
     ):
         with monkeypatch.context() as patch:
-            patch.setattr(obj_folder, limit, value)
+            patch.setattr(room, limit, value)
             assert why in refused(tmp_path)
 
 

@@ -14,8 +14,10 @@ from core_pipeline.faces.framing import frame, head_camera, turned_upright
 from core_pipeline.faces.mapping_json import mapping_path, save_mapping
 from core_pipeline.faces.open_face import open_face
 from core_pipeline.faces.retarget import OWN_NAMES
+from core_pipeline.faces.texture import Material, Texture
 from core_pipeline.faces.view import View
 from core_pipeline.poses import FACEFX
+from tests.helpers.pictures import png, textured
 from tests.helpers.rigs import BACKWARDS, NAMES, PRESETS, Z_UP, as_glb, as_objs, head, moved
 
 ARKIT = head(["jawOpen", *(name for name in NAMES["arkit52"] if name != "jawOpen")])
@@ -213,6 +215,65 @@ def test_the_second_time_gives_the_same_face_without_reading_the_rig(tmp_path, k
         assert getattr(second.face, name) == getattr(first.face, name)
     assert second.notes == first.notes
     assert second.retarget == first.retarget
+
+
+@pytest.mark.parametrize("wraps", [(10497,), (33071, 10497), (33648, 33071, 10497)])
+def test_pictures_are_kept_bit_for_bit(tmp_path, monkeypatch, wraps):
+    pixels = np.random.default_rng(1).integers(0, 256, (5, 7, 4))
+    gltf = textured(png(pixels), alphaMode="BLEND")
+    gltf.json["samplers"] = [{"wrapS": wrap} for wrap in wraps]
+    gltf.json["textures"] = [{"source": 0, "sampler": number} for number in range(len(wraps))]
+    surfaces = [{"baseColorTexture": {"index": number}} for number in range(len(wraps))]
+    mask = {"alphaMode": "MASK", "alphaCutoff": 0.1}
+    gltf.json["materials"] += [{"pbrMetallicRoughness": surface} | mask for surface in surfaces]
+    gltf.mesh()["primitives"] = [
+        {**gltf.primitive(), "material": number} for number in range(len(gltf.json["materials"]))
+    ]
+    path = tmp_path / "head.glb"
+    path.write_bytes(gltf.glb())
+    first = opened(path, **cached(tmp_path)).face
+    monkeypatch.setattr("core_pipeline.faces.open_face._read", None)
+    second = opened(path, **cached(tmp_path)).face
+    assert second.materials == first.materials
+    assert {material.soft for material in second.materials.values()} == {True, False}
+    assert [texture.wrap for texture in second.textures] == [texture.wrap for texture in first.textures]
+    assert len(second.textures) == len(wraps)
+    assert len({id(texture.picture) for texture in second.textures}) == 1, "one picture stays one"
+    np.testing.assert_array_equal(second.textures[0].picture, pixels)
+    np.testing.assert_array_equal(second.texcoords, first.texcoords)
+    assert second.texcoords.dtype == np.float32
+
+
+def test_a_rig_without_pictures_is_kept_without(tmp_path, monkeypatch):
+    path = as_glb(head(), tmp_path / "head.glb")
+    opened(path, **cached(tmp_path))
+    monkeypatch.setattr("core_pipeline.faces.open_face._read", None)
+    face = opened(path, **cached(tmp_path)).face
+    assert (face.textures, face.materials, face.texcoords) == ((), {}, None)
+
+
+def test_a_rig_whose_pictures_are_too_large_is_not_kept(tmp_path, monkeypatch):
+    path = tmp_path / "head.glb"
+    path.write_bytes(textured(png(np.zeros((64, 64, 3)))).glb())
+    monkeypatch.setattr(rig_cache, "MAX_FILE", 64 * 64 * 4)
+    opened(path, **cached(tmp_path))
+    assert rig_cache.recall(path, tmp_path / "cache") is None
+    monkeypatch.setattr(rig_cache, "MAX_FILE", 64 * 64 * 5)
+    opened(path, **cached(tmp_path))
+    assert rig_cache.recall(path, tmp_path / "cache") is not None
+
+
+def test_turned_upright_a_rig_keeps_its_pictures():
+    lying = {
+        "textures": (Texture(np.zeros((1, 1, 4), np.uint8)),),
+        "parts": {"head": (0, 20)},
+        "materials": {"head": Material(0, 0.5)},
+        "texcoords": ARKIT.positions[:, :2],
+    }
+    face, told = turned_upright(replace(moved(ARKIT, BACKWARDS), **lying))
+    assert told
+    for name, value in lying.items():
+        assert getattr(face, name) is value, name
 
 
 def test_a_changed_rig_is_read_again(tmp_path):
