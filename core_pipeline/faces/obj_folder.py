@@ -19,6 +19,7 @@ from core_pipeline.faces.limits import LARGEST, MAX_MORPH_BYTES, MAX_TEXT, MAX_V
 from core_pipeline.faces.normals import shape_normals
 from core_pipeline.faces.obj_colours import SKIN, linear, part_colours
 from core_pipeline.faces.retarget import normalised
+from core_pipeline.faces.scaffold import LEFT_OUT, is_scaffold
 from core_pipeline.faces.steps import Report, Steps, silent
 from core_pipeline.files.atomic import read_bytes
 from core_pipeline.files.json_text import shown
@@ -47,7 +48,9 @@ def read_obj_folder(folder: Path, report: Report = silent) -> tuple[Face, tuple[
     neutral = _neutral(folder, paths)
     poses = [path for path in paths if path != neutral and not _IDENTITY.fullmatch(path.stem.casefold())]
     others = len(paths) - 1 - len(poses)
-    notes = (f"{others} identity files make other heads, not expressions: they are left out.",) if others else ()
+    notes: tuple[str, ...] = (
+        (f"{others} identity files make other heads, not expressions: they are left out.",) if others else ()
+    )
     if not poses:
         raise UserError(f"{folder}: there are no poses beside {neutral.name}; export one .obj per pose.")
     if len(poses) > MAX_POSES:
@@ -57,6 +60,7 @@ def read_obj_folder(folder: Path, report: Report = silent) -> tuple[Face, tuple[
     if count * len(poses) * 24 > MAX_MORPH_BYTES:
         raise UserError(f"{folder}: {count:,} vertices × {len(poses)} poses need more than 512 MB; reduce the mesh.")
     triangles, colours = _dressed(base)
+    notes += (LEFT_OUT,) * any(is_scaffold(name) for _, name in base.part_names())
     step = Steps(2 * len(poses), report)
     deltas = np.zeros((len(poses), count, 3), np.float32)
     for row, path in enumerate(poses):
@@ -90,7 +94,7 @@ def _dressed(base: _Obj) -> tuple[NDArray[np.uint32], Floats]:
     found = part_colours([name for _, name in names], base.path.parent, base.library)
     for number, colour in enumerate(found):
         mine = part == number
-        shown[mine] = colour is not None
+        shown[mine] = colour is not None and not is_scaffold(names[number][1])
         if colour is not None:
             colours[triangles[mine].ravel()] = colour
     if base.colours is not None:
