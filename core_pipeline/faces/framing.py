@@ -19,6 +19,8 @@ _LONGER = 1.1
 #: Parts below which a picture of a head may end, and how much of them it shows, in heights of the head.
 _SHOULDERS = ("shirt", "collar", "neck")
 _SHOULDER = 0.06
+#: What goes on below the face by more than this part of its height is a body; and how much of its neck is shown.
+_BODY, _NECK = 0.5, 0.18
 #: Beyond this part of the half picture nothing was meant to be seen.
 _SEEN = 1.1
 #: So high, in the same parts, a crown may stand over the middle.
@@ -27,6 +29,10 @@ _CROWN = 2.0
 _ENOUGH = 8_000
 #: Width of a close view in widths of the mouth.
 _ROUND_MOUTH = 1.7
+#: The mouth of a rig that names no lips is what its poses move by this part of what they move most.
+_LIPS = 0.7
+#: Narrower than this part of the face is no mouth.
+_POINT = 0.1
 _OPEN = frozenset({"jawopen", "open", "mouthopen", "visemeaa", "jawdrop", "vopen", "aa", "fclmtha", "a"})
 
 
@@ -36,7 +42,10 @@ def frame(positions: Floats) -> Camera:
 
 
 def head_camera(face: Face) -> Camera:
-    """A camera that shows the head: where the shapes move the mesh, and as much again, within the mesh."""
+    """A camera that shows the head: where the shapes move the mesh, and as much again, within the mesh.
+
+    Of a body, what is below the chin is cut to a bit of neck.
+    """
     moved = _moving(face)
     if not moved.any():
         return frame(face.positions)
@@ -45,7 +54,12 @@ def head_camera(face: Face) -> Camera:
     around = _AROUND * max(*(high - low)[:2], 1e-9)
     centre = (low + high) / 2
     mesh_low, mesh_high = face.positions.min(0).astype(float), face.positions.max(0).astype(float)
-    return _camera(np.maximum(centre - around, mesh_low), np.minimum(centre + around, mesh_high))
+    head = _head(face, moved)
+    if head is None:
+        return _camera(np.maximum(centre - around, mesh_low), np.minimum(centre + around, mesh_high))
+    low, high = head.min(0).astype(float), head.max(0).astype(float)
+    low[1] -= _NECK * (high - low)[1]
+    return _camera(low, high)
 
 
 def head_height(face: Face) -> float:
@@ -68,6 +82,12 @@ def head_outline(face: Face) -> Floats:
             x, _, z = face.camera.target
             below = np.array([[x, top - _SHOULDER * (head[:, 1].max() - top), z]], np.float32)
             return np.vstack([_silhouette(head), below])
+    moved = _moving(face)
+    body = _head(face, moved) if moved.any() else None
+    if body is not None:
+        x, _, z = face.camera.target
+        bottom, top = body[:, 1].min(), body[:, 1].max()
+        return np.vstack([_silhouette(body), np.array([[x, bottom - _NECK * (top - bottom), z]], np.float32)])
     camera = face.camera
     reach = _SEEN * camera.distance * np.tan(np.radians(camera.fov / 2))
     across, up = (points[:, :2] - np.asarray(camera.target, np.float32)[:2]).T
@@ -81,7 +101,7 @@ def mouth_outline(face: Face) -> Floats:
     if "lips" in face.parts:
         mouth = face.positions[_corners(face, "lips")]
     else:
-        mouth = face.positions[_lower_half(face)]
+        mouth = face.positions[_lips(face)]
     low, high = mouth.min(0), mouth.max(0)
     middle, wide = (low + high) / 2, _ROUND_MOUTH * float((high - low)[0])
     corners = np.array([(x, y, z) for x in (-1, 1) for y in (-0.8, 0.8) for z in (0,)], np.float32)
@@ -161,6 +181,17 @@ def _near(face: Face, moved: NDArray[np.bool_]) -> Floats:
     return near
 
 
+def _head(face: Face, moved: NDArray[np.bool_]) -> Floats | None:
+    """(m, 3) the head on a body, from the chin to all that stands over it; None where hardly anything is below."""
+    inside, points = face.positions[moved], face.positions
+    (low_x, chin, _), (high_x, brow, _) = inside.min(0), inside.max(0)
+    if points[:, 1].min() > chin - _BODY * (brow - chin):
+        return None
+    reach = max(high_x - low_x, brow - chin)
+    head: Floats = points[(points[:, 1] >= chin) & (np.abs(points[:, 0] - (low_x + high_x) / 2) <= reach)]
+    return head
+
+
 def _turned(face: Face, turn: Floats) -> Face:
     return replace(
         face,
@@ -177,13 +208,29 @@ def _corners(face: Face, part: str) -> NDArray[np.uint32]:
     return np.unique(face.triangles[first : first + count])
 
 
-def _lower_half(face: Face) -> NDArray[np.bool_]:
-    """(n,) the lower half of what moves: there is the mouth of a rig that names no lips."""
-    moved = _moving(face)
-    if not moved.any():
+def _lips(face: Face) -> NDArray[np.bool_]:
+    """(n,) the lips of a rig that names none: what most of its poses move most, those apart that drop the jaw.
+
+    Where that is a mere point, the lower half of what moves.
+    """
+    moving = _moving(face)
+    if not moving.any():
         return np.ones(len(face.positions), bool)
-    y = face.positions[:, 1]
-    return moved & (y <= np.median(y[moved]))
+    x, y, _ = face.positions.T
+    jaw = {shape for shape in face.shapes if normalised(shape) in _OPEN}
+    share = np.zeros(len(face.positions), np.float32)
+    for pose in face.pose_map:
+        mix = face.mix(pose)
+        rows = [face.shapes.index(shape) for shape in mix if shape in face.shapes and shape not in jaw]
+        if rows and len(rows) >= len(mix) / 2:
+            amounts = np.array([mix[face.shapes[row]] for row in rows], np.float32)
+            moved = np.linalg.norm(np.tensordot(amounts, face.deltas[rows], 1), axis=1)
+            share += moved / max(float(moved.max()), 1e-12)
+    lips: NDArray[np.bool_] = share > _LIPS * share.max()
+    if lips.any() and np.ptp(x[lips]) > _POINT * np.ptp(x[moving]):
+        return lips
+    lower: NDArray[np.bool_] = moving & (y <= np.median(y[moving]))
+    return lower
 
 
 def _silhouette(points: Floats) -> Floats:

@@ -20,6 +20,7 @@ from core_pipeline.faces.gltf_materials import Materials
 from core_pipeline.faces.gltf_scene import Matrix, Scene
 from core_pipeline.faces.limits import LARGEST, MAX_MORPH_BYTES, MAX_TRIANGLES, MAX_VERTICES
 from core_pipeline.faces.normals import shape_normals
+from core_pipeline.faces.scaffold import LEFT_OUT, is_scaffold
 from core_pipeline.faces.steps import Report, Steps, silent
 from core_pipeline.faces.texture import Material, Texture
 from core_pipeline.faces.vrm import expressions
@@ -66,6 +67,7 @@ def _planned(gltf: GltfFile, scene: Scene) -> list[_Plan]:
         plans += _primitives(gltf, node, matrix)
         if len(plans) > MAX_PARTS:
             raise gltf.fail(f"it has more than {MAX_PARTS:,} parts; export the head alone.")
+    plans = _without_scaffold(gltf, plans)
     vertices, corners, shapes = 0, 0, set()
     for plan in plans:
         attributes = gltf.part(plan.primitive, "attributes")
@@ -83,6 +85,21 @@ def _planned(gltf: GltfFile, scene: Scene) -> list[_Plan]:
     if vertices * len(shapes) * 24 > MAX_MORPH_BYTES:
         raise gltf.fail(f"{vertices:,} vertices × {len(shapes)} shapes need more than 512 MB; reduce the mesh.")
     return plans
+
+
+def _without_scaffold(gltf: GltfFile, plans: list[_Plan]) -> list[_Plan]:
+    """The plans without those of parts that nobody is to see, if any are left then."""
+
+    def names(plan: _Plan) -> str:
+        mesh = gltf.item("meshes", plan.node["mesh"])
+        material = gltf.item("materials", plan.primitive["material"]) if "material" in plan.primitive else {}
+        return f"{plan.title} {mesh.get('name')} {material.get('name')}"
+
+    kept = [plan for plan in plans if not is_scaffold(names(plan))]
+    if not any(plan.names for plan in kept) or len(kept) == len(plans):
+        return plans
+    gltf.note(LEFT_OUT)
+    return kept
 
 
 @dataclass

@@ -14,6 +14,8 @@ from core_pipeline.faces.limits import LARGEST
 
 #: A second's work.
 MAX_NODES = 20_000
+#: Blender writes two sets where it is told to keep all influences.
+_MOST_SETS = 4
 
 Matrix = NDArray[np.floating[Any]]
 
@@ -24,16 +26,24 @@ class Scene:
     def __init__(self, gltf: GltfFile) -> None:
         self._gltf = gltf
         self._world = _world(gltf)
+        nodes = enumerate(gltf.items("nodes"))
+        self._above = {child: index for index, node in nodes for child in gltf.numbers(node, "children")}
 
     def meshes(self) -> Iterator[tuple[Json, Matrix]]:
-        """Every node that has a mesh, with its matrix; all meshes when the file has no nodes."""
+        """Every node that has a mesh, with its matrix; all meshes when the file has no nodes.
+
+        A node without any name gets that of the one it hangs on: gltfpack puts meshes below the nodes it keeps.
+        """
         nodes = self._gltf.items("nodes")
         if not nodes:
             yield from (({"mesh": index}, np.eye(4)) for index in range(len(self._gltf.items("meshes"))))
             return
         for index, matrix in self._world.items():
-            if "mesh" in nodes[index]:
-                yield nodes[index], matrix
+            node = nodes[index]
+            if "mesh" in node:
+                named = node.get("name") or self._gltf.item("meshes", node["mesh"]).get("name")
+                above = nodes[self._above[index]].get("name") if index in self._above else None
+                yield node if named or not above else node | {"name": above}, matrix
 
     def placement(self, node: Json, matrix: Matrix, attributes: Json, count: int) -> Matrix:
         """(4, 4), or (n, 4, 4) for a mesh that hangs on joints: its own node's place does not count then."""
@@ -50,14 +60,17 @@ class Scene:
                     f"a skin has {len(joints)} joints but {len(inverse)} bind matrices; export the file again."
                 )
             moved = moved @ inverse[: len(joints)]
-        which = gltf.read(attributes["JOINTS_0"], "VEC4").astype(np.int64)
-        weights = gltf.read(attributes["WEIGHTS_0"], "VEC4").astype(np.float32)
+        # four joints to a set: a vertex that hangs on more of them has more sets
+        sets = [n for n in range(_MOST_SETS) if {f"JOINTS_{n}", f"WEIGHTS_{n}"} <= set(attributes)]
+        which = np.hstack([gltf.read(attributes[f"JOINTS_{n}"], "VEC4").astype(np.int64) for n in sets])
+        weights = np.hstack([gltf.read(attributes[f"WEIGHTS_{n}"], "VEC4").astype(np.float32) for n in sets])
         if count and which.max() >= len(joints):
             raise gltf.fail(f"a vertex hangs on joint {which.max()} of {len(joints)}; export the file again.")
         total = weights.sum(1, keepdims=True)
-        weights = np.where(total > 0, weights / np.where(total > 0, total, 1), (1.0, 0, 0, 0))
+        first = np.eye(1, weights.shape[1])
+        weights = np.where(total > 0, weights / np.where(total > 0, total, 1), first)
         blended = np.zeros((count, 4, 4), np.float32)
-        for slot in range(4):
+        for slot in range(weights.shape[1]):
             blended += weights[:, slot, None, None] * moved[which[:, slot]].astype(np.float32)
         at_rest = count > 0 and np.ptp(blended, axis=0).max() < 1e-6 * np.abs(blended).max()
         return blended[0] if at_rest else blended

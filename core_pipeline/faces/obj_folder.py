@@ -44,7 +44,9 @@ def read_obj_rig(folder: Path, report: Report = silent) -> tuple[Face, list[Path
     neutral = _neutral(folder, paths)
     poses = [path for path in paths if path != neutral and not _IDENTITY.fullmatch(path.stem.casefold())]
     others = len(paths) - 1 - len(poses)
-    notes = (f"{others} identity files make other heads, not expressions: they are left out.",) if others else ()
+    notes: tuple[str, ...] = (
+        (f"{others} identity files make other heads, not expressions: they are left out.",) if others else ()
+    )
     if not poses:
         raise UserError(f"{folder}: there are no poses beside {neutral.name}; export one .obj per pose.")
     if len(poses) > MAX_POSES:

@@ -19,6 +19,7 @@ from core_pipeline.faces.obj_file import Ints, ObjFile
 from core_pipeline.faces.obj_library import ObjMaterial, read_library
 from core_pipeline.faces.obj_pictures import ObjPictures
 from core_pipeline.faces.picture_alpha import seen_through
+from core_pipeline.faces.scaffold import LEFT_OUT, is_scaffold
 from core_pipeline.faces.texture import Material, Texture
 
 _WHITE = (1.0, 1.0, 1.0, SKIN[3])
@@ -72,6 +73,7 @@ def surface(base: ObjFile, title: str) -> Surface:
         texture = pictures.texture(name)
         if materials[name].soft and texture is not None and texcoords is not None:
             shown[on == number] &= seen_through(texture, texcoords, triangles[on == number], 1.0)
+    scaffold = any(is_scaffold(found.name) for found in base.stretches)
     order = np.argsort(on, kind="stable")
     order = order[shown[order]] if shown.any() else order
     parts = _parts(on[order], names, title)
@@ -84,14 +86,15 @@ def surface(base: ObjFile, title: str) -> Surface:
         {name: material for name, material in materials.items() if name in parts},
         texcoords,
         (*files, *pictures.files),
-        tuple(pictures.notes),
+        (*pictures.notes, *(LEFT_OUT,) * scaffold),
     )
 
 
 def _look(name: str, material: ObjMaterial | None) -> Colour | None:
     """The colour of a stretch of polygons where no picture lies; None when it is not to be seen."""
     named = named_colour(name)
-    if (named is not None and named[3] < 0) or (material is not None and material.clear):
+    clear = material is not None and material.clear
+    if (named is not None and named[3] < 0) or clear or is_scaffold(name):
         return None
     if named is not None or material is None or material.diffuse is None:
         return named or SKIN

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
+from core_pipeline.faces.affixes import bare_names
 from core_pipeline.poses import FACEFX
 
 Mix = Mapping[str, float]
@@ -25,6 +26,7 @@ _SIDE = re.compile(r"(left|right)$")
 _ONE_SIDE = re.compile(r"_?(Left|Right|[UD]?[LR])$")
 _PREFIX = re.compile(r"^(ctrlexpressions|.*(?=fcl(mth|eye|brw|all|ha)))")
 _COPY = re.compile(r"\.\d+$")
+_SCENE = re.compile(r"^.*[.:|](?=.)")
 
 
 @dataclass(frozen=True)
@@ -66,24 +68,35 @@ def normalised(name: str) -> str:
     "Head.mouthSmile_L" and "mouth smile left" are one; the ".001" some programs append is no name, and neither
     is MetaHuman's "CTRL_expressions" or what VRoid writes before "Fcl_".
     """
-    plain = _COPY.sub("", name).rpartition(".")[2].casefold()
+    plain = _last(name).casefold()
     plain = plain.replace("_", "").replace(" ", "").replace("-", "")
     return _SIDE.sub(lambda side: side[0][0], _PREFIX.sub("", plain))
 
 
+def _last(name: str) -> str:
+    """A name without what a scene puts before it: "Head.", "Face:", "Group|"."""
+    return _SCENE.sub("", _COPY.sub("", name))
+
+
 class Rig:
-    """The shapes of a rig, to be found by any spelling."""
+    """The shapes of a rig, to be found by any spelling; failing that, by what is left without common affixes."""
 
     def __init__(self, shapes: Iterable[str]) -> None:
         self._found: dict[str, list[str]] = {}
+        last: dict[str, list[str]] = {}
         for shape in shapes:
             self._found.setdefault(normalised(shape), []).append(shape)
+            last.setdefault(_last(shape), []).append(shape)
+        self._bare: dict[str, list[str]] = {}
+        for name, bare in bare_names(last).items():
+            self._bare.setdefault(normalised(bare), []).extend(last[name])
 
     def shapes(self, wanted: str, preset: Preset) -> list[str]:
         """The rig's shapes for a preset's one: by its name or an alias, else both sides in one (mouthSmile)."""
         names = [wanted, *preset.aliases.get(wanted, ())]
         names += [_ONE_SIDE.sub("", name) for name in names]
-        return next((found for name in names if (found := self._found.get(normalised(name)))), [])
+        keys = [normalised(name) for name in names]
+        return next((found for by in (self._found, self._bare) for key in keys if (found := by.get(key))), [])
 
     def overlap(self, preset: Preset) -> int:
         """How many of the preset's names the rig has."""
@@ -162,9 +175,9 @@ def _mixed(rig: Rig, preset: Preset, wanted: Mix) -> tuple[dict[str, float], lis
 
 def _closed_no_wider_than_open(mix: dict[str, float]) -> dict[str, float]:
     """mouthClose takes back what jawOpen does to the lips; with more of it than of jawOpen they pass each other."""
-    opened = max((amount for shape, amount in mix.items() if normalised(shape) == "jawopen"), default=0.0)
+    opened = max((amount for shape, amount in mix.items() if "jawopen" in normalised(shape)), default=0.0)
     kept = {
-        shape: min(amount, opened) if normalised(shape) == "mouthclose" else amount for shape, amount in mix.items()
+        shape: min(amount, opened) if "mouthclose" in normalised(shape) else amount for shape, amount in mix.items()
     }
     return {shape: amount for shape, amount in kept.items() if amount}
 

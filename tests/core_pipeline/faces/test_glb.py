@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 
 from core_pipeline.errors import UserError
 from core_pipeline.faces import glb, gltf_file
-from core_pipeline.faces.glb import read_glb
+from core_pipeline.faces.glb import read_glb, read_rig
 from core_pipeline.faces.glb_write import glb_bytes, write_glb
+from core_pipeline.faces.scaffold import LEFT_OUT
 from tests.helpers.ball import ball
 from tests.helpers.gltf import Gltf, tetrahedron
 
@@ -222,6 +223,48 @@ def test_skinned_vertices_stand_where_their_joints_put_them(tmp_path):
     ]
     gltf.json["scenes"][0]["nodes"] = [0, 1, 2]
     np.testing.assert_allclose(read(tmp_path, gltf).positions, tetrahedron().points() + np.array([1, 2, 0]), atol=1e-6)
+
+
+def test_a_vertex_may_hang_on_more_than_four_joints(tmp_path):
+    gltf = tetrahedron()
+    attributes = gltf.primitive()["attributes"]
+    for number, joints in enumerate(([0, 1, 2, 3], [4, 0, 0, 0])):
+        attributes[f"JOINTS_{number}"] = gltf.accessor(np.array([joints] * 4, np.uint8))
+    attributes["WEIGHTS_0"] = gltf.accessor(np.array([[0.2, 0.2, 0.2, 0.2]] * 4, np.float32))
+    attributes["WEIGHTS_1"] = gltf.accessor(np.array([[0.2, 0, 0, 0]] * 4, np.float32))
+    gltf.json["skins"] = [{"joints": [1, 2, 3, 4, 5]}]
+    gltf.json["nodes"] = [{"mesh": 0, "skin": 0}, *({"translation": [0, 0, far]} for far in (0, 0, 0, 0, 10))]
+    gltf.json["scenes"][0]["nodes"] = list(range(6))
+    np.testing.assert_allclose(read(tmp_path, gltf).positions, tetrahedron().points() + np.array([0, 0, 2]), atol=1e-6)
+
+
+def test_a_mesh_without_a_name_is_called_as_what_it_hangs_on(tmp_path):
+    gltf = tetrahedron()
+    del gltf.mesh()["name"]
+    gltf.json["nodes"] = [{"name": "Head", "children": [1]}, {"mesh": 0}]
+    assert list(read(tmp_path, gltf).parts) == ["Head"]
+
+
+@pytest.mark.parametrize("where", ["node", "mesh", "material"])
+def test_what_only_tools_need_is_left_out(tmp_path, where):
+    gltf = tetrahedron()
+    points = tetrahedron().points()
+    gltf.add_mesh(points + 5, [0, 2, 1], {"up": np.ones((4, 3), np.float32)}, "WGT-rig_jaw" if where == "mesh" else "x")
+    gltf.json["materials"] = [{"name": "helper-tights" if where == "material" else "skin"}]
+    gltf.json["meshes"][1]["primitives"][0]["material"] = 0
+    if where == "node":
+        gltf.json["nodes"][1]["name"] = "joint-l-eye"
+    path = tmp_path / "head.glb"
+    path.write_bytes(gltf.glb())
+    face, _, notes = read_rig(path)
+    assert list(face.parts) == ["tetra"]
+    assert notes == (LEFT_OUT,)
+
+
+def test_but_a_rig_of_nothing_else_is_shown(tmp_path):
+    gltf = tetrahedron()
+    gltf.json["nodes"][0]["name"] = "joint-venture"
+    assert list(read(tmp_path, gltf).parts) == ["joint-venture"]
 
 
 def test_strips_and_fans(tmp_path):

@@ -8,6 +8,7 @@ from core_pipeline.faces import obj_file, obj_folder
 from core_pipeline.faces.limits import MAX_TEXT
 from core_pipeline.faces.obj_colours import SKIN
 from core_pipeline.faces.obj_folder import read_obj_folder
+from core_pipeline.faces.scaffold import LEFT_OUT
 from tests.helpers.rigs import as_objs, head
 
 QUAD = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"
@@ -195,6 +196,15 @@ def test_clear_shells_before_the_eyes_are_left_out(tmp_path):
     assert len(face.positions) == 6, "and the vertices keep their numbers"
     (tmp_path / "all").mkdir()
     assert len(parts(tmp_path / "all", "g lens", "g tear").triangles) == 2, "but something is always shown"
+
+
+def test_the_proxies_of_makehuman_are_left_out(tmp_path):
+    face = parts(tmp_path, "g body", "g helper-hair")
+    assert face.triangles.tolist() == [[0, 1, 2]]
+    assert LEFT_OUT in read_obj_folder(tmp_path)[1]
+    for number, group in enumerate(("joint-l-eye", "helper-l-eye", "helper-upper-teeth", "helper-l-eyelashes-1")):
+        (tmp_path / group).mkdir()
+        assert len(parts(tmp_path / group, "g body", f"g {group}").triangles) == (1 if not number else 2)
 
 
 def test_colours_of_the_material_file(tmp_path):

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core_pipeline.errors import UserError
+from core_pipeline.faces.affixes import bare_names
 from core_pipeline.faces.mapping_json import load_mapping, load_presets, mapping_path, save_mapping
 from core_pipeline.faces.retarget import OWN_NAMES, Preset, apply, best, normalised
 from core_pipeline.poses import FACEFX
@@ -20,10 +21,40 @@ ARKIT = NAMES["arkit52"]
 @pytest.mark.parametrize(
     "other",
     ["mouthSmileLeft", "mouthSmile_L", "mouth smile l", "MOUTH_SMILE_LEFT", "Head.mouthSmileLeft", "a.b.mouthSmile-L",
-     "mouthSmileLeft.001"],
+     "mouthSmileLeft.001", "Face:mouthSmileLeft", "Group|Head|mouthSmileLeft"],
 )  # fmt: skip
 def test_spellings_of_one_name(other):
     assert normalised(other) == "mouthsmilel"
+
+
+@pytest.mark.parametrize("around", ["head__{}", "facs_bs_{}_div2", "{}_mesh", "A{n:02d}_{}", "{n}_BS-{}"])
+@pytest.mark.parametrize("name", NAMES)
+def test_what_all_names_have_around_them_is_no_name(name, around):
+    shapes = {around.format(shape, n=number): shape for number, shape in enumerate(NAMES[name])}
+    plain, found = best(NAMES[name], PRESETS), best(list(shapes), PRESETS)
+    assert found.preset == name
+    assert {pose: {shapes[shape]: amount for shape, amount in mix.items()} for pose, mix in found.poses.items()} == {
+        pose: dict(mix) for pose, mix in plain.poses.items()
+    }
+
+
+@given(st.lists(st.text("aB1_-", max_size=8), unique=True))
+def test_taking_off_what_is_around_leaves_something_of_every_name(names):
+    for name, bare in bare_names(names).items():
+        assert bare
+        assert len(bare) < len(name)
+
+
+def test_the_visemes_of_oculus_go_without_their_prefix_too():
+    bare = [shape.removeprefix("viseme_") for shape in NAMES["oculus15"]]
+    made = best(bare, PRESETS)
+    assert made.preset == "oculus15"
+    assert made.poses["PBM"] == {"PP": 1.0}
+
+
+def test_japanese_vowels_are_vrms():
+    made = best(["あ", "い", "う", "え", "お", "ん", "まばたき"], PRESETS)
+    assert (made.preset, made.poses["open"], made.poses["PBM"]) == ("vrm", {"あ": 1.0}, {"ん": 1.0})
 
 
 def test_sides_are_not_mixed_up_and_other_names_stay_apart():

@@ -181,6 +181,35 @@ def test_the_crown_of_a_rig_is_seen_though_only_its_jaw_moves(size):
     assert max(left, right, up) < 0.98
 
 
+def on_a_body(face):
+    """The face on shoulders three times as wide, and down to its feet; the arms stretched out."""
+    x, y, z = np.meshgrid([-3, -1.3, 0, 1.3, 3], [-1.6, -1.9, -4, -9], [-0.6, 0.6], indexing="ij")
+    body = np.stack([x, y, z], -1).reshape(-1, 3).astype(np.float32)
+    still = np.zeros((len(face.shapes), len(body), 3), np.float32)
+    return replace(
+        face, positions=np.vstack([face.positions, body]), deltas=np.concatenate([face.deltas, still], axis=1)
+    )
+
+
+@given(SIZES, st.sampled_from([-38, 0, 38]))
+def test_of_a_whole_avatar_the_head_fills_the_picture(size, yaw):
+    head = rigs.head(("jawOpen", "mouthPucker", "browInnerUp"))
+    face = on_a_body(head)
+    face = replace(face, camera=head_camera(face))
+    left, right, up, down = reach(View.on(face).turned(yaw).fitted(size), head.positions, size)
+    assert max(left, right, up) < 0.98
+    assert max(left, right, up, down) > 0.7
+
+
+def test_the_mouth_of_a_rig_that_names_no_lips_is_what_its_poses_move():
+    face = rigs.head(("jawOpen", "mouthPucker", "browInnerUp"), rings=40)
+    face = replace(face, camera=head_camera(face), pose_map={"open": {"jawOpen": 1}, "W": {"mouthPucker": 1}})
+    near = View.on(face, ANGLES["mouth"]).fitted((300, 300))
+    lips = face.positions[np.abs(face.deltas[1, :, 2]) > 0.8 * np.abs(face.deltas[1]).max()]
+    assert 0.3 < reach(near, lips, (300, 300))[0] < 0.9
+    assert near.distance < 0.6 * View.on(face).fitted((300, 300)).distance
+
+
 @given(SIZES, st.floats(-5, 5))
 def test_zoom_counts_from_where_the_head_fits(size, steps):
     view = View.on(BUSTS[1.0])
