@@ -170,7 +170,7 @@ class Company(QObject):
         guest.opened = opened
         self._show()
         if opened.notes:
-            self._window.hint_label.setText(opened.notes[0])
+            self._window.hint_label.setText(f"{opened.face.title}: {opened.notes[0]}")
         self.arrived.emit(guest.path)
 
     def _failed(self, guest: _Guest, reason: str) -> None:

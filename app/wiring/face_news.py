@@ -21,6 +21,7 @@ class FaceNews(QObject):
         self._faces = parts.faces
         self._character = character
         self._notice = parts.window.face_view.notice
+        self._offers = False  # the mapping of a face that can make no pose
         for asks, reads in ((character, self._faces), (character.company, character.company)):
             asks.asked.connect(self._notice.hide)
             reads.reading.connect(self._tell)
@@ -34,13 +35,18 @@ class FaceNews(QObject):
         self._window.hint_label.setText(sentence)
 
     def _warn(self, sentence: str) -> None:
+        self._offers = False
         self._notice.warn(sentence)
         self._window.hint_label.setText(sentence)
 
     def _opened(self, opened: Opened) -> None:
+        if self._offers:
+            self._offers = False
+            self._notice.hide()
         self._done()
         shown = self._preview.face is not None and self._preview.face.positions is opened.face.positions
         if shown and not opened.retarget.poses and self._faces.path not in resources.characters():
+            self._offers = True
             self._notice.warn(opened.notes[0], self.tr("Face Mapping"))
 
     def _done(self) -> None:
@@ -49,7 +55,8 @@ class FaceNews(QObject):
             self._notice.hide()
 
     def _help(self) -> None:
-        if self._notice.warns:
+        if self._offers:
+            self._offers = False
             self._notice.hide()
             self._window.mapping_dock.show()
             self._window.mapping_dock.raise_()

@@ -236,6 +236,10 @@ def test_a_rig_of_unknown_names_leads_to_the_mapping(editor: Editor, qtbot: QtBo
     QTest.mouseClick(notice.button, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(editor.window.mapping_panel.isVisible)
     assert notice.text == ""
+    editor.wiring.character.open(wolf)
+    qtbot.waitUntil(lambda: "howl" in notice.text, timeout=20_000)
+    editor.window.actions_.new_set_for_face.trigger()  # now it can make them all
+    qtbot.waitUntil(lambda: notice.text == "", timeout=20_000)
 
 
 def test_a_face_taken_off_the_list_is_not_offered_again(editor: Editor, qtbot: QtBot, tmp_path: Path) -> None:

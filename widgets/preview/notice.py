@@ -107,6 +107,8 @@ class Notice(QWidget):
         width = min(room.width(), _WIDEST)
         across = QBoxLayout.Direction.LeftToRight
         self._middle.setDirection(across if width >= _NARROW else QBoxLayout.Direction.TopToBottom)
+        self._middle.invalidate()  # what was reckoned for another sentence
+        self.layout().invalidate()
         height = self.layout().totalHeightForWidth(width)
         left = room.left() + (room.width() - width) // 2
         self.setGeometry(QRect(left, room.top(), width, min(height, room.height())))
