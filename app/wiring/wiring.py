@@ -348,7 +348,7 @@ class Wiring(QObject):
         self.mapping.close()
         self.sentences.remember()
         state.put("geometry", w.saveGeometry())
-        state.put("docks", w.saveState())
+        state.put("docks", w.docks_state())
         state.put("order of phones", w.picker.order_name)
         state.put("sentence", w.sentence_bar.sentence)
         state.put("safe colours", w.actions_.safe_colours.isChecked())
