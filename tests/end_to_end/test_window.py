@@ -49,6 +49,13 @@ def test_the_palette_opens_bigrams_words_and_does_commands(editor: Editor, qtbot
     assert editor.wiring.bigram.pair == ("ih", "f")
 
     press(Qt.Key.Key_K, CTRL)
+    type_text("pbm")
+    press(Qt.Key.Key_Return)
+    assert editor.window.canvas.active == "PBM"
+    assert editor.window.canvas.hasFocus()
+    editor.wiring.bigram.activate_pose("open")
+
+    press(Qt.Key.Key_K, CTRL)
     type_text("select all keys")
     press(Qt.Key.Key_Return)
     assert editor.window.canvas.selection
