@@ -130,8 +130,9 @@ class MainWindow(QMainWindow):
             event.acceptProposedAction()
 
     def dropEvent(self, event: QDropEvent) -> None:
-        """Say what was dropped."""
-        event.acceptProposedAction()
+        """Say what was dropped. It is looked at only: a file manager that offers to move it keeps it."""
+        event.setDropAction(Qt.DropAction.CopyAction)
+        event.accept()
         self.dropped.emit(Path(event.mimeData().urls()[0].toLocalFile()))
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
@@ -179,7 +180,19 @@ class MainWindow(QMainWindow):
     def restore_layout(self, geometry: QByteArray, docks: QByteArray) -> None:
         """Last time's layout, as far as it still fits."""
         self.restoreGeometry(geometry)
-        self._sized = self.restoreState(docks)
+        self._sized = self.restoreState(docks, self._lowness)
+
+    def docks_state(self) -> QByteArray:
+        """Where the docks stand, for `take_docks` and `restore_layout` of a window about as high as this one."""
+        return self.saveState(self._lowness)
+
+    def take_docks(self, state: QByteArray) -> bool:
+        """Put the docks where they stood; False for no such state, or where this window is too low for it."""
+        return any(self.restoreState(state, kind) for kind in range(self._lowness, 2))
+
+    @property
+    def _lowness(self) -> int:
+        return int(self.height() < LOW)
 
     def use_layout(self, name: str = AUTHOR) -> None:
         """One of layouts.PRESETS, for this window's size."""

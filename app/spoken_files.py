@@ -9,6 +9,7 @@ import numpy as np
 
 from core_pipeline.errors import UserError
 from core_pipeline.files import schedule_json, utterance_json
+from core_pipeline.files.atomic import open_to_read
 from core_pipeline.files.labels import textgrid
 from core_pipeline.phonemes import SILENCE
 from core_pipeline.schedule import Schedule
@@ -74,7 +75,7 @@ def saved_beside(recording: Path) -> Path:
 def is_spoken(path: Path) -> bool:
     """Whether a .json file is an utterance, a schedule, or labels of MFA, by its first bytes."""
     try:
-        with path.open("rb") as file:
+        with open_to_read(path) as file:
             head = file.read(4000)
     except OSError:
         return False

@@ -146,6 +146,7 @@ QLineEdit:focus{{border-color:{accent}}}
 QToolButton{{padding:4px;border:1px solid transparent;border-radius:4px}} QToolButton:hover{{background:{border}}}
 QToolButton:checked{{background:{checked}}} QToolButton:focus{{border-color:{accent}}}
 QAbstractItemView{{selection-background-color:{checked}}}
+QDialogButtonBox{{dialogbuttonbox-buttons-have-icons:0}}
 QToolTip{{color:{text};background:{raised};border:1px solid {border};padding:3px 5px}}
 """
 

@@ -26,6 +26,8 @@ class Faces(QObject):
     opened(Opened)  the face is ready
     failed(str)     why it is not; the face before stays
     reading(str)    how far it is, when that takes a while: "head.glb: 40 % read"
+
+    `path` is where the face comes from that is read or, once that has ended, the one that is there.
     """
 
     opened = Signal(object)
@@ -35,19 +37,33 @@ class Faces(QObject):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self.path = resources.face_folder()
+        self.path = self._there = resources.face_folder()
+        self._poses: tuple[str, ...] = ()
+        self._poses_there: tuple[str, ...] | None = None  # of the face that is there; None: there is none
         self._number = 0
+        self._reads = False
         self._threads: list[threading.Thread] = []
         self._done.connect(self._deliver, Qt.ConnectionType.QueuedConnection)
+
+    @property
+    def reads(self) -> bool:
+        """Whether a face is being read."""
+        return self._reads
 
     def open(self, path: Path, poses: Sequence[str]) -> None:
         """Read the face at `path` for a pose set; `opened` or `failed` follows."""
         self._number += 1
-        self.path = path
+        self.path, self._poses, self._reads = path, tuple(poses), True
         self._threads = [thread for thread in self._threads if thread.is_alive()]
         thread = threading.Thread(target=self._read, args=(self._number, path, tuple(poses)), name="face reader")
         self._threads.append(thread)
         thread.start()
+
+    def cancel(self) -> None:
+        """Read no further; the face before stays, and nothing is emitted."""
+        if self._reads:
+            self._number += 1
+            self._stay()
 
     def close(self) -> None:
         """End what is being read; nothing is emitted afterwards."""
@@ -82,9 +98,17 @@ class Faces(QObject):
     def _deliver(self, number: int, result: Opened | Exception) -> None:
         if number != self._number:
             return
-        if isinstance(result, UserError):
+        if isinstance(result, Exception):
+            self._stay()
+            if not isinstance(result, UserError):
+                raise result
             self.failed.emit(str(result))
-        elif isinstance(result, Exception):
-            raise result
         else:
+            self._there, self._poses_there, self._reads = self.path, self._poses, False
             self.opened.emit(result)
+
+    def _stay(self) -> None:
+        """With the face before; it is read again where the wish was for another pose set, too."""
+        wished, self.path, self._reads = self.path, self._there, False
+        if self._poses_there not in (None, self._poses) and wished != self._there:
+            self.open(self._there, self._poses)

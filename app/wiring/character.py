@@ -23,8 +23,11 @@ RIGS = "Faces (*.glb *.gltf *.vrm)"
 class Character(QObject):
     """Joins the face view, the renderer and the reader of faces.
 
+    asked()               another face is wished for
     set_wanted(CurveSet)  the user wants to draw curves for the face's own poses
     """
+
+    asked = Signal()
 
     set_wanted = Signal(object)
 
@@ -36,6 +39,7 @@ class Character(QObject):
         self._state = parts.state
         self.company = Company(parts, self)
         self._poses: tuple[str, ...] = ()
+        self._wished = Path()  # the face that was asked for last
         self._others: list[Path] = []  # to try, when the present face can make none of a new set's poses
         self._caption = QTimer(self)
         self._caption.setInterval(CAPTION_MS)
@@ -48,8 +52,7 @@ class Character(QObject):
     def _connect(self) -> None:
         view, preview = self._window.face_view, self._preview
         self._faces.opened.connect(self._opened)
-        self._faces.failed.connect(self._failed)
-        self._faces.reading.connect(self._window.hint_label.setText)
+        self._faces.failed.connect(lambda _: self._stay())
         preview.frame_ready.connect(view.set_frame)
         preview.failed.connect(lambda reason: view.set_message(reason, retry=True))
         view.orbited.connect(preview.orbit)
@@ -84,8 +87,16 @@ class Character(QObject):
         """Show another face as soon as it has been read; `keep`: look for one that can make the set's poses."""
         if not keep:
             self._others = []
+            self.asked.emit()
+        self._wished = path
         self._faces.open(path, self._poses)
         self._mark()
+
+    def cancel(self) -> None:
+        """Read no further; the faces that are there stay."""
+        self.company.cancel()
+        self._faces.cancel()
+        self._stay()
 
     @property
     def paths(self) -> list[Path]:
@@ -141,7 +152,11 @@ class Character(QObject):
 
     def ask_folder(self) -> Path | None:
         """The same for a folder of poses."""
-        return self._remembered(QFileDialog.getExistingDirectory(self._window, self.tr("Open a folder of .obj poses")))
+        return self._remembered(
+            QFileDialog.getExistingDirectory(
+                self._window, self.tr("Open a folder of .obj poses"), self._state.text("faces")
+            )
+        )
 
     def _remembered(self, name: str) -> Path | None:
         if name:
@@ -161,10 +176,12 @@ class Character(QObject):
         if opened.notes:
             self._window.hint_label.setText(opened.notes[0])
 
-    def _failed(self, reason: str) -> None:
-        if self._preview.face is None:
-            self._window.face_view.set_message(reason)
-        self._window.hint_label.setText(reason)
+    def _stay(self) -> None:
+        """What was asked for does not come: the face before stays; where there is none yet, the first of ours comes."""
+        self._mark()
+        usual = resources.face_folder()
+        if self._preview.face is None and self._wished != usual:
+            self.open(usual, keep=True)
 
     def _cut_away(self, place: int, on: bool) -> None:
         self._preview.cut_away(place, on)

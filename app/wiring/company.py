@@ -33,10 +33,18 @@ class _Guest(QObject):
 class Company(QObject):
     """Keeps the preview's actors: the first face, rivals of it, and guests; never more than fit.
 
-    changed()  other faces are in the picture
+    changed()      other faces are in the picture
+    asked()        somebody else is wished for
+    arrived(Path)  a guest's face has been read
+    failed(str)    why it has not; a guest without a face leaves
+    reading(str)   how far it is, when that takes a while
     """
 
     changed = Signal()
+    asked = Signal()
+    arrived = Signal(Path)
+    failed = Signal(str)
+    reading = Signal(str)
 
     def __init__(self, parts: Parts, parent: QObject) -> None:
         super().__init__(parent)
@@ -80,13 +88,28 @@ class Company(QObject):
             guest = _Guest(path, self)
             guest.reader.opened.connect(lambda opened: self._arrived(guest, opened))
             guest.reader.failed.connect(lambda reason: self._failed(guest, reason))
+            guest.reader.reading.connect(self.reading)
             self._guests.append(guest)
+            self.asked.emit()
             guest.reader.open(path, self._poses)
 
     def change(self, index: int, path: Path) -> None:
         """Another face in the place of a guest (0 is the first guest)."""
         guest = self._guests[index]
+        self.asked.emit()
         guest.reader.open(path, self._poses)
+
+    @property
+    def reads(self) -> bool:
+        """Whether a guest's face is being read."""
+        return any(guest.reader.reads for guest in self._guests)
+
+    def cancel(self) -> None:
+        """Read no further: guests keep the faces they have, those without leave."""
+        for guest in list(self._guests):
+            guest.reader.cancel()
+            if guest.opened is None and not guest.reader.reads:
+                self.remove(self._guests.index(guest))
 
     def remove(self, index: int) -> Path:
         """Send a guest away; where its face was."""
@@ -147,9 +170,11 @@ class Company(QObject):
         guest.opened = opened
         self._show()
         if opened.notes:
-            self._window.hint_label.setText(opened.notes[0])
+            self._window.hint_label.setText(f"{opened.face.title}: {opened.notes[0]}")
+        self.arrived.emit(guest.path)
 
     def _failed(self, guest: _Guest, reason: str) -> None:
-        self._window.hint_label.setText(reason)
         if guest.opened is None and guest in self._guests:
             self.remove(self._guests.index(guest))
+        self.changed.emit()
+        self.failed.emit(reason)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from PySide6.QtCore import QObject, QTimer
-from PySide6.QtGui import QAction
+from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QFileDialog
 
 from core_pipeline import pipeline
@@ -75,9 +75,13 @@ class Compare(QObject):
             self._window.hint_label.setText(
                 self.tr("{0} has other poses: the two cannot be compared").format(other.name)
             )
-            self.nothing.setChecked(True)
             other = None
+        elif other is not None:
+            told = self.tr("Compared with {0}: hold {1} to see and hear it")
+            keys = self.hold_action.shortcut().toString(QKeySequence.SequenceFormat.NativeText)
+            self._window.hint_label.setText(told.format(self._name(other), keys))
         self.other = other
+        self._mark()
         self._tint()
         self._stages_changed(self._session.stages)
 
@@ -86,9 +90,8 @@ class Compare(QObject):
         try:
             self.use(curve_set_json.load(path))
         except UserError as error:
-            self._window.hint_label.setText(str(error))
             self.use(None)
-            self.nothing.setChecked(True)
+            self._window.hint_label.setText(str(error))
 
     def hold(self) -> None:
         """Show B: what is compared with, else the version at opening."""
@@ -117,7 +120,12 @@ class Compare(QObject):
         if name:
             self.open_file(Path(name))
         else:
-            (self.nothing if self.other is None else self.opening).setChecked(True)
+            self._mark()
+
+    def _mark(self) -> None:
+        """Check what is compared with now."""
+        known = self.nothing if self.other is None else self.opening if self.other is self._opened else self.file
+        known.setChecked(True)
 
     def _replaced(self) -> None:
         """Another set, or a great change of this one: which of the two shows when the undo stack has heard of it."""
@@ -127,7 +135,6 @@ class Compare(QObject):
         if self._document.undo_stack.count():
             return
         self._opened = self._document.curve_set
-        self.nothing.setChecked(True)
         self.use(None)
 
     def _tint(self, _: object = None) -> None:
@@ -137,7 +144,8 @@ class Compare(QObject):
         curve_set = self._document.curve_set
         found = differences(curve_set, self.other)
         pairs = ((a, b) for a in curve_set.phonemes for b in curve_set.phonemes)
-        self._window.picker.set_differences({pair: found.get(pair, 0.0) / FULL for pair in pairs})
+        shares = {pair: found.get(pair, 0.0) / FULL for pair in pairs}
+        self._window.picker.set_differences(shares, self._name(self.other))
 
     def _stages_changed(self, _: Stages | None) -> None:
         now = self._session.utterance, self.other

@@ -7,7 +7,6 @@ from pathlib import Path
 from PySide6.QtCore import QObject, QPoint, QRect
 from PySide6.QtWidgets import QWidget
 
-from core_pipeline.faces.open_face import Opened
 from widgets.preview.face_picker import Choice
 
 from .. import resources
@@ -40,7 +39,9 @@ class FacePicking(QObject):
         self._picker.picked.connect(lambda key: self._take(Path(key)))
         self._picker.file_wanted.connect(lambda: self._take(character.ask_file()))
         self._picker.folder_wanted.connect(lambda: self._take(character.ask_folder()))
-        self._faces.opened.connect(self._remember)
+        self._picker.forgotten.connect(self._forget)
+        self._faces.opened.connect(lambda _: self._remember(self._faces.path))
+        character.company.arrived.connect(self._remember)
 
     def change(self, place: int) -> None:
         """Choose another face for a place of the picture."""
@@ -65,7 +66,7 @@ class FacePicking(QObject):
     def _open(self, title: str, current: str, widget: QWidget) -> None:
         beside = QRect(widget.mapToGlobal(QPoint(0, 0)), widget.size())
         ours = [Choice(str(folder), folder.name.capitalize()) for folder in resources.characters()]
-        rigs = [Choice(str(path), path.stem, str(path)) for path in self._recent()]
+        rigs = [Choice(str(path), path.stem, str(path), listed=True) for path in self._recent()]
         self._picker.open(title, [*ours, *rigs], current, beside)
         for key in self._picker.keys:
             self._thumbnails.ask(Path(key))
@@ -79,14 +80,13 @@ class FacePicking(QObject):
             return
         if self._place is None:
             self._character.company.add(path)
-            self._remember_path(path)
         else:
             self._character.put(self._place, path)
 
-    def _remember(self, _opened: Opened) -> None:
-        self._remember_path(self._faces.path)
+    def _forget(self, key: str) -> None:
+        self._state.put("recent faces", [name for name in self._state.texts("recent faces") if name != key])
 
-    def _remember_path(self, path: Path) -> None:
+    def _remember(self, path: Path) -> None:
         """A rig that was opened comes first; our own characters are always there."""
         if path in resources.characters() or not path.exists():
             return

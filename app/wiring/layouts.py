@@ -42,7 +42,7 @@ class Layouts(QObject):
         if not name or (name not in self._names and len(self._names) == MOST):
             self._window.hint_label.setText(self.tr("A layout needs a name, and there is room for {0}.").format(MOST))
             return
-        self._state.put(_key(name), self._window.saveState())
+        self._state.put(_key(name), self._window.docks_state())
         if name not in self._names:
             self._offer(name)
             self._show()
@@ -50,8 +50,10 @@ class Layouts(QObject):
 
     def use(self, name: str) -> None:
         """Bring a saved layout back."""
-        if not self._window.restoreState(self._state.layout(_key(name))):
-            self._window.hint_label.setText(self.tr("The layout “{0}” is damaged: save it again.").format(name))
+        if not self._window.take_docks(self._state.layout(_key(name))):
+            self._window.hint_label.setText(
+                self.tr("The layout “{0}” is damaged, or for a higher window: save it again.").format(name)
+            )
 
     def remove(self, name: str) -> None:
         """Forget a saved layout."""

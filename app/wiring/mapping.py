@@ -62,7 +62,7 @@ class Mapping(QObject):
         self._faces.opened.connect(self._show_face)
         self._reference.picture.connect(panel.set_reference)
         self._preview.pose_held.connect(panel.set_held)
-        self._window.mapping_dock.visibilityChanged.connect(lambda _: self._refer())
+        self._window.mapping_dock.visibilityChanged.connect(self._seen)
         panel.pose_picked.connect(lambda _: self._refer())
         panel.settled.connect(self._settle)
         panel.pose_shown.connect(lambda pose: self._preview.show_pose(self._alone(pose)))
@@ -192,6 +192,12 @@ class Mapping(QObject):
         self._by_hand = False
         if not (self._preview.player.playing or self._preview.bigram_player.playing):
             self._preview.show_pose(self._alone(pose))
+
+    def _seen(self, seen: bool) -> None:
+        """Behind another tab Qt does not count the panel as hidden, but no face needs to hold a pose for it."""
+        if not seen:
+            self._preview.show_pose({})
+        self._refer()
 
     def _settle(self) -> None:
         """The next change is another step."""

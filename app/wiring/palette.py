@@ -1,4 +1,4 @@
-"""The command palette brought to life: the window's actions, the canvas's, all bigrams, words and sentences."""
+"""The command palette brought to life: the window's actions, the canvas's, poses, all bigrams, words and sentences."""
 
 from __future__ import annotations
 
@@ -44,7 +44,8 @@ class Palette(QObject):
 
     def open(self) -> None:
         """Show the palette."""
-        self.view.open([*self._commands(), *self._of_canvas(), *self._sentences(), *self._bigrams()], self._recent)
+        kinds = (self._commands(), self._of_canvas(), self._poses(), self._sentences(), self._bigrams())
+        self.view.open([choice for kind in kinds for choice in kind], self._recent)
 
     def _commands(self) -> Iterator[Choice]:
         for entry in self._window.actions_.registry:
@@ -64,6 +65,10 @@ class Palette(QObject):
         for action, keys in keymap.items():
             if action not in IN_GESTURE:
                 yield Choice(f"canvas:{action}", canvas_title(action), self.tr("Canvas"), native(keys[:1]))
+
+    def _poses(self) -> Iterator[Choice]:
+        for pose in self._document.curve_set.poses:
+            yield Choice(f"pose:{pose}", pose, self.tr("Pose"))
 
     def _sentences(self) -> Iterator[Choice]:
         for text in self._sentence.pinned.texts:
@@ -113,6 +118,9 @@ class Palette(QObject):
         elif kind == "canvas":
             w.canvas.setFocus()
             w.canvas.act(what)
+        elif kind == "pose":
+            w.canvas.setFocus()
+            w.pose_list.pose_picked.emit(what)  # as a click on it
         elif kind == "bigram":
             first, second = what.split(" ")
             self._bigram.open((first, second))

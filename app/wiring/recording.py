@@ -24,6 +24,9 @@ from .parts import Parts
 from .phones import Phones
 from .sentence import Sentence
 
+#: Letters of a text that is said as one sentence.
+LONGEST = 500
+
 _Button = QMessageBox.StandardButton
 _UTTERANCE, _TEXTGRID, _SCHEDULE = (
     "Phones and words (*.utterance.json)",
@@ -97,7 +100,7 @@ class Recording(QObject):
         ending = path.suffix.lower()
         if ending in (*SOUND_FILES, *VIDEO_FILES):
             self.open(path)
-        elif ending == ".txt" and self.audio is not None:
+        elif ending == ".txt":
             self.open_transcript(path)
         elif ending in ENDINGS or (ending == ".json" and is_spoken(path)):
             self.open_labels(path)
@@ -116,11 +119,22 @@ class Recording(QObject):
         self.hearing.open(path)
 
     def open_transcript(self, path: Path) -> None:
-        """The words of a text file."""
+        """The words of a text file: of the recording that is open, else a sentence to say."""
         try:
-            self._panel.set_transcript(transcript_of(str(path)))
+            text = transcript_of(str(path))
+            if self.audio is None and len(text) > LONGEST:
+                told = self.tr("{0} is too long for one sentence: drop its recording first, or a shorter text.")
+                raise UserError(told.format(path.name))
         except UserError as error:
+            self._window.hint_label.setText(str(error))
             self._panel.set_message(str(error), "error")
+            return
+        if self.audio is None:
+            self._sentence.type(" ".join(text.split()), play=False)
+            return
+        self._show()
+        self._panel.set_transcript(text)
+        self._panel.set_message(self.tr("Press Align to find when these words sound."))
 
     def open_labels(self, path: Path) -> None:
         """Read a label file, for the open recording or for the one beside it."""

@@ -9,6 +9,7 @@ from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QFileDialog
 
 from core_pipeline.files import phoneme_map_json
+from core_pipeline.files.atomic import open_to_read
 from core_pipeline.files.phoneme_map_json import PhonemeMap
 from core_pipeline.phonemes import SILENCE
 from core_pipeline.speech.utterance import Utterance
@@ -196,7 +197,7 @@ class SpeechIn(QObject):
 
 def _is_map(path: Path) -> bool:
     try:
-        with path.open("rb") as file:
+        with open_to_read(path) as file:
             return phoneme_map_json.SCHEMA.encode() in file.read(2000)
     except OSError:
         return False

@@ -1,9 +1,9 @@
 """The only place, with its neighbours, where wishes become commands and values reach the views.
 
 open_bigram.py has the canvas and what belongs to it, sentence.py the sentence and its transport, character.py the
-face, company.py those beside it, face_picker.py their choice, looks.py light and camera, mapping.py what makes a
-face's poses, palette.py the command palette, keys.py keymaps and shortcuts; here is the rest: the document's news,
-the pipeline's results, settings, search, menus.
+face, company.py those beside it, face_news.py what is said of their reading, face_picker.py their choice, looks.py
+light and camera, mapping.py what makes a face's poses, palette.py the command palette, keys.py keymaps and
+shortcuts; here is the rest: the document's news, the pipeline's results, settings, search, menus.
 """
 
 from __future__ import annotations
@@ -28,6 +28,7 @@ from .beside import Beside
 from .carrier import Carrier
 from .character import Character
 from .compare import Compare
+from .face_news import FaceNews
 from .face_picker import FacePicking
 from .keys import KeysOfWindow
 from .layers import Layers
@@ -74,6 +75,7 @@ class Wiring(QObject):
         self.speech_in = SpeechIn(parts, self.sentence, self)
         self.sentences = Sentences(parts, self.sentence, self)
         self.character = Character(parts, self)
+        self.face_news = FaceNews(parts, self.character, self)
         self.picking = FacePicking(parts, self.character, self)
         self.looks = Looks(parts, self)
         self.tongue = Tongue(parts, self)
@@ -346,7 +348,7 @@ class Wiring(QObject):
         self.mapping.close()
         self.sentences.remember()
         state.put("geometry", w.saveGeometry())
-        state.put("docks", w.saveState())
+        state.put("docks", w.docks_state())
         state.put("order of phones", w.picker.order_name)
         state.put("sentence", w.sentence_bar.sentence)
         state.put("safe colours", w.actions_.safe_colours.isChecked())

@@ -99,8 +99,8 @@ class Rig:
         return next((found for by in (self._found, self._bare) for key in keys if (found := by.get(key))), [])
 
     def overlap(self, preset: Preset) -> int:
-        """How many of the preset's names the rig has."""
-        return sum(bool(self.shapes(name, preset)) for name in preset.names)
+        """How many of the rig's shapes the preset knows; one that stands for several of its names counts once."""
+        return len({shape for name in preset.names for shape in self.shapes(name, preset)})
 
 
 def best(

@@ -5,10 +5,22 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
+import stat
 import tempfile
 from pathlib import Path
+from typing import BinaryIO
 
 from ..errors import UserError
+
+
+def open_to_read(path: Path) -> BinaryIO:
+    """Like `path.open("rb")`; OSError for a named pipe, too: one that nobody writes to would be waited for for ever.
+
+    What a shell puts at /dev/stdin and /dev/fd has somebody who writes.
+    """
+    if stat.S_ISFIFO(path.stat().st_mode) and not str(path).startswith(("/dev/", "/proc/")):
+        raise OSError(errno.ESPIPE, "it is a pipe, not a file; keep what comes through it in a file", str(path))
+    return path.open("rb")
 
 
 def read_bytes(path: Path | str, limit: int, what: str) -> bytes:
@@ -17,7 +29,7 @@ def read_bytes(path: Path | str, limit: int, what: str) -> bytes:
     try:
         if path.is_dir():
             raise UserError(f"{path} is a folder: choose the {what} file in it.")
-        with path.open("rb") as file:
+        with open_to_read(path) as file:
             data = file.read(limit + 1)
     except (OSError, ValueError) as error:
         raise UserError(f"Cannot read {path}: {reason(error)}.") from error

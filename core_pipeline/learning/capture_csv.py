@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import UserError
-from ..files.atomic import read_bytes
+from ..files.atomic import open_to_read, read_bytes
 from ..files.json_text import shown
 from .capture import Capture, even
 
@@ -90,7 +90,7 @@ def is_capture(header: Sequence[str]) -> bool:
 def header_of(path: Path) -> list[str]:
     """The first line's cells; empty when the file cannot be read as a table."""
     try:
-        with path.open("rb") as file:
+        with open_to_read(path) as file:
             first = file.readline(100_000).decode("utf-8-sig", "replace")
     except OSError:
         return []

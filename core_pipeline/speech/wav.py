@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import UserError
-from ..files.atomic import write_atomically
+from ..files.atomic import open_to_read, write_atomically
 from .utterance import Audio
 
 
@@ -28,7 +28,7 @@ def write_wav(path: Path | str, audio: Audio) -> None:
 def read_wav(path: Path | str) -> Audio:
     """Integer PCM of 8, 16, 24 or 32 bits; several channels are averaged. UserError names file and cure."""
     try:
-        with Path(path).open("rb") as file, wave.open(file, "rb") as wav:
+        with open_to_read(Path(path)) as file, wave.open(file, "rb") as wav:
             channels, width, rate = wav.getnchannels(), wav.getsampwidth(), wav.getframerate()
             data = wav.readframes(wav.getnframes())
     except OSError as error:

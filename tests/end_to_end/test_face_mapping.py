@@ -251,3 +251,14 @@ def test_every_change_of_a_mapping_is_one_undo_step_and_no_change_of_the_curves(
     stack.redo()
     assert panel.mix.mix() == {"jawOpen": pytest.approx(0.3, abs=0.01)}
     assert panel.save.isEnabled()
+
+
+def test_behind_another_tab_the_panel_holds_no_pose(editor: Editor, qtbot: QtBot, rig: Path) -> None:
+    teach(editor, qtbot, rig)
+    held: list[bool] = []
+    editor.preview.pose_held.connect(held.append)
+    pick(editor, "W")
+    assert held[-1]
+    editor.window.weights_dock.raise_()
+    qtbot.waitUntil(lambda: not held[-1])
+    assert not editor.window.mapping_panel.hold.isChecked()

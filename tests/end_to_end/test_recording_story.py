@@ -219,3 +219,25 @@ def test_rate_and_pitch_speak_the_sentence_anew(editor: Editor, qtbot: QtBot) ->
     with qtbot.waitSignal(editor.speech.spoken, timeout=20_000) as fast:
         editor.window.voice_panel.rate.setValue(300)
     assert fast.args[0].audio.duration < usual.args[0].audio.duration
+
+
+def test_a_dropped_text_is_a_sentence_to_say_or_the_words_of_the_open_recording(
+    editor: Editor, qtbot: QtBot, wav: Path, tmp_path: Path
+) -> None:
+    w, text, long = editor.window, tmp_path / "words.txt", tmp_path / "long.txt"
+    text.write_text("Five big\nmoths.\n")
+    long.write_text("moth " * 200)
+    with qtbot.waitSignal(editor.session.stages_changed, timeout=20_000):
+        drop(editor, text)
+    assert w.sentence_bar.sentence == "Five big moths."
+    drop(editor, long)
+    assert "long.txt is too long" in w.hint_label.text()
+    assert w.sentence_bar.sentence == "Five big moths."
+
+    with qtbot.waitSignal(editor.wiring.speech_in.recording.hearing.opened, timeout=20_000):
+        drop(editor, wav)
+    w.sentences_dock.raise_()
+    drop(editor, text)
+    assert w.recording_panel.transcript.toPlainText().split() == ["Five", "big", "moths."]
+    assert "Press Align" in w.recording_panel.message.text()
+    qtbot.waitUntil(lambda: not w.recording_panel.visibleRegion().isEmpty())

@@ -10,7 +10,9 @@ from pytestqt.qtbot import QtBot
 
 from app import resources
 from app.editor import Editor
+from app.settings import ViewState
 from app.wiring.character import Character
+from core_pipeline.files import curve_set_json
 from core_pipeline.phonemes import Pair
 from core_pipeline.poses import FACEFX
 from tests.helpers import rigs
@@ -163,3 +165,92 @@ def test_a_picked_pose_of_the_tongue_is_shown_with_the_mouth_open(editor: Editor
     assert weights[-1][poses.index("open")] == pytest.approx(0.3)
     editor.window.pose_list.pose_picked.emit("W")
     qtbot.waitUntil(lambda: weights[-1][poses.index("tRoof")] < 1.0)
+
+
+def broken(tmp_path: Path, name: str = "broken.glb") -> Path:
+    path = tmp_path / name
+    path.write_bytes(b"not a face")
+    return path
+
+
+def test_a_face_that_cannot_be_read_is_told_over_the_picture_until_another_is_wished_for(
+    editor: Editor, qtbot: QtBot, tmp_path: Path
+) -> None:
+    add(editor, qtbot, "man")
+    notice, character = editor.window.face_view.notice, editor.wiring.character
+    character.put(1, broken(tmp_path))
+    qtbot.waitUntil(lambda: "broken.glb" in notice.text, timeout=20_000)
+    assert names(editor) == ["toon", "man"]
+    assert [path.name for path in character.paths] == ["toon", "man"]
+    character.put(0, broken(tmp_path, "other.glb"))
+    qtbot.waitUntil(lambda: "other.glb" in notice.text, timeout=20_000)
+    assert [path.name for path in character.paths] == ["toon", "man"]
+    character.company.add(broken(tmp_path))
+    qtbot.waitUntil(lambda: "broken.glb" in notice.text and len(character.paths) == 2, timeout=20_000)
+    editor.window.actions_.pick_face.trigger()
+    assert not [key for key in editor.window.face_picker.keys if "broken" in key]  # it never arrived
+    editor.window.face_picker.hide()
+    QTest.mouseClick(notice.cross, Qt.MouseButton.LeftButton)
+    assert notice.text == ""
+
+
+def test_where_the_first_face_cannot_be_read_one_of_ours_comes(qtbot: QtBot, tmp_path: Path) -> None:
+    state = ViewState(tmp_path / "state")
+    state.put("face", str(broken(tmp_path)))
+    editor = Editor(curve_set_json.load(resources.english_curves()), state)
+    try:
+        editor.wiring.restore()  # before the first of ours has been read
+        qtbot.waitUntil(lambda: names(editor) == ["toon"], timeout=20_000)
+        assert "broken.glb" in editor.window.face_view.notice.text
+    finally:
+        editor.close()
+        editor.window.deleteLater()
+    assert state.text("face") == str(resources.face_folder())
+
+
+def test_reading_is_cancelled_by_a_button_over_the_picture(
+    editor: Editor, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    add(editor, qtbot)
+    monkeypatch.setattr("app.preview.faces.QUIET", 0.0)
+    large = rigs.as_objs(rigs.head(rigs.NAMES["arkit52"], rings=60), tmp_path / "large")
+    notice, company = editor.window.face_view.notice, editor.wiring.character.company
+    for begin in (lambda: editor.wiring.character.open(large), lambda: company.add(large)):
+        begin()
+        qtbot.waitUntil(lambda: "% read" in notice.text, timeout=20_000)
+        QTest.mouseClick(notice.button, Qt.MouseButton.LeftButton)
+        assert notice.text == ""
+        assert not editor.faces.reads
+        assert not company.reads
+    qtbot.wait(50)
+    assert names(editor) == ["toon"]
+    assert editor.wiring.character.paths == [resources.face_folder()]
+
+
+def test_a_rig_of_unknown_names_leads_to_the_mapping(editor: Editor, qtbot: QtBot, tmp_path: Path) -> None:
+    wolf = rigs.as_glb(rigs.head(("howl", "snarl")), tmp_path / "wolf.glb")
+    editor.wiring.character.open(wolf)
+    notice = editor.window.face_view.notice
+    qtbot.waitUntil(lambda: "howl" in notice.text, timeout=20_000)
+    assert not editor.window.mapping_panel.isVisible()
+    QTest.mouseClick(notice.button, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(editor.window.mapping_panel.isVisible)
+    assert notice.text == ""
+    editor.wiring.character.open(wolf)
+    qtbot.waitUntil(lambda: "howl" in notice.text, timeout=20_000)
+    editor.window.actions_.new_set_for_face.trigger()  # now it can make them all
+    qtbot.waitUntil(lambda: notice.text == "", timeout=20_000)
+
+
+def test_a_face_taken_off_the_list_is_not_offered_again(editor: Editor, qtbot: QtBot, tmp_path: Path) -> None:
+    path = rigs.as_glb(rigs.head(("jawOpen",)), tmp_path / "head.glb")
+    with qtbot.waitSignal(editor.faces.opened, timeout=20_000):
+        editor.wiring.character.open(path)
+    picker = editor.window.face_picker
+    editor.window.actions_.pick_face.trigger()
+    assert picker.keys[-1] == str(path)
+    QTest.keyClick(picker.faces, Qt.Key.Key_Delete)
+    picker.hide()
+    editor.window.actions_.pick_face.trigger()
+    assert str(path) not in picker.keys
+    picker.hide()

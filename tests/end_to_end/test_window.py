@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QByteArray, Qt
 from PySide6.QtGui import QKeySequence
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QDockWidget
@@ -47,6 +47,13 @@ def test_the_palette_opens_bigrams_words_and_does_commands(editor: Editor, qtbot
     type_text("open swapped")
     press(Qt.Key.Key_Return)
     assert editor.wiring.bigram.pair == ("ih", "f")
+
+    press(Qt.Key.Key_K, CTRL)
+    type_text("pbm")
+    press(Qt.Key.Key_Return)
+    assert editor.window.canvas.active == "PBM"
+    assert editor.window.canvas.hasFocus()
+    editor.wiring.bigram.activate_pose("open")
 
     press(Qt.Key.Key_K, CTRL)
     type_text("select all keys")
@@ -267,3 +274,25 @@ def test_the_first_window_is_no_higher_than_its_screen(editor: Editor) -> None:
     w.resize(1600, 10 * w.screen().availableSize().height())
     w.fit_screen()
     assert 640 <= w.height() < w.screen().availableSize().height()
+
+
+def test_the_layout_of_a_high_window_is_not_put_upon_a_low_one(editor: Editor) -> None:
+    w = editor.window
+    w.resize(1600, 1000)
+    high = w.docks_state()
+    editor.wiring.layouts.save("High")
+    w.resize(1600, 720)
+    low = w.docks_state()
+    editor.wiring.layouts.save("Low")
+    editor.wiring.layouts.use("High")
+    assert "for a higher window" in w.hint_label.text()
+    assert w.weak_dock in w.tabifiedDockWidgets(w.bigrams_dock)
+    w.resize(1600, 1000)
+    editor.wiring.layouts.use("Low")  # fits, and may be wished for
+    assert w.weak_dock in w.tabifiedDockWidgets(w.bigrams_dock)
+    for height, last, tabs in ((720, high, True), (720, low, True), (1000, high, False), (1000, low, False)):
+        w.resize(1600, height)
+        w.restore_layout(QByteArray(), last)
+        if not w._sized:  # what showing the window does then
+            w.use_layout()
+        assert (w.weak_dock in w.tabifiedDockWidgets(w.bigrams_dock)) == tabs

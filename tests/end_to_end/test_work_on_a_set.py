@@ -292,9 +292,14 @@ def test_comparing_tints_what_differs_and_draws_both(editor: Editor, qtbot: QtBo
     assert pairs.differences is not None
     assert pairs.differences[F_AH] > 0.5
     assert pairs.differences["oy", "oy"] == 0
+    legend = editor.window.picker.legend
+    assert legend.names[0] == "like English"
+    assert "hold B" in editor.window.hint_label.text()
+    assert compare.file.isChecked()
     assert editor.window.stage_panel.overlay._other["FV"].peak > 0.5
     compare.nothing.trigger()
     assert pairs.differences is None
+    assert legend.names[0] == "empty"
     assert not editor.window.stage_panel.overlay._other
     crab = resources.english_curves().with_name("crab.json")
     compare.open_file(crab)

@@ -15,6 +15,8 @@ _GAP = "\u2002·\u2002"
 
 #: Pixels that the text keeps; buttons that would take them are left out.
 TEXT = 210
+#: What no button may take beside the title: margins and the gap behind it.
+_EDGES = 32
 #: Pixels of the whole at least.
 NARROWEST = 230
 #: Letters of a note that stand in the line.
@@ -29,7 +31,7 @@ _ACTIONS = (
     ("duplicate", "content-duplicate", QT_TRANSLATE_NOOP("CanvasHeader", "Duplicate from a similar bigram")),
     ("slide", "compare-horizontal", QT_TRANSLATE_NOOP("CanvasHeader", "Slide to another version")),
 )
-#: Those that go where there is no room, the last one first: keys do the same.
+#: Those that go where there is no room, the last one first: keys do the same. The others go before the title does.
 _SPARE = ("duplicate", "slide", "reverse", "mirror", "copy", "paste")
 
 
@@ -188,10 +190,12 @@ class CanvasHeader(QWidget):
         """Fits the line."""
         super().resizeEvent(event)
         button = self._snap.sizeHint().width() + self._layout.spacing()
-        always = len(self.buttons) - len(_SPARE)
-        left = event.size().width() - self._title.sizeHint().width() - TEXT - always * button
-        for place, action in enumerate(_SPARE):
-            self._actions[action].setVisible(left >= (place + 1) * button)
+        spare = [self._actions[action] for action in _SPARE]
+        usual = [button for button in self.buttons if button not in spare]
+        room = event.size().width() - self._title.sizeHint().width()
+        for buttons, left in ((usual, room - _EDGES), (spare, room - TEXT - len(usual) * button)):
+            for place, one in enumerate(buttons):
+                one.setVisible(left >= (place + 1) * button)
         self._show()
 
     def _parts(self, *, short: bool = False) -> list[tuple[str, str]]:

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QRect, QSize, Qt
-from PySide6.QtGui import QFont, QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from .. import theme
+
+#: Name, fill and edge of a swatch.
+Entry = tuple[str, QColor | None, QColor | None]
 
 _SWATCH, _GAP, _ROW = 9, 12, 17  # pixels
 
@@ -26,7 +29,8 @@ class BigramLegend(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self._message = ""
         status = theme.STATUS_COLOURS
-        self._entries = (
+        self._entries: tuple[Entry, ...] = ()
+        self._state_of_work: tuple[Entry, ...] = (
             (self.tr("empty"), status["empty"], theme.BORDER),
             (self.tr("suggestion"), status["suggestion"], None),
             (self.tr("draft"), status["draft"], None),
@@ -37,13 +41,31 @@ class BigramLegend(QWidget):
             (self.tr("open"), None, theme.HIGHLIGHT),
         )
         self.setAccessibleName(self.tr("Legend"))
-        self.setAccessibleDescription(", ".join(name for name, _, _ in self._entries))
+        self.set_other("")
+
+    def set_other(self, name: str) -> None:
+        """Name the tints of a comparison with a set of this name in place of the states of the work; "" for none."""
+        if name:
+            self._entries = (
+                (self.tr("like {0}").format(name), theme.SUNKEN, theme.BORDER),
+                (self.tr("a little else"), theme.mix(theme.HIGHLIGHT, theme.SUNKEN, 0.4), None),
+                (self.tr("quite else"), theme.HIGHLIGHT, None),
+                *self._state_of_work[-2:],
+            )
+        else:
+            self._entries = self._state_of_work
+        self.set_message(self._message)
         self._lay_out()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """What the swatches stand for."""
+        return tuple(name for name, _, _ in self._entries)
 
     def set_message(self, text: str) -> None:
         """Show a line in place of the legend; "" brings the legend back."""
         self._message = text
-        self.setAccessibleDescription(text or ", ".join(name for name, _, _ in self._entries))
+        self.setAccessibleDescription(text or ", ".join(self.names))
         self.update()
 
     @property

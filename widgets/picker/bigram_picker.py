@@ -137,9 +137,10 @@ class BigramPicker(QWidget):
         self.grid.pairs.weakness = shares
         self.grid.pairs.refresh()
 
-    def set_differences(self, differences: Mapping[Pair, float] | None) -> None:
-        """Tint pairs by how much they differ from another set, 0…1, in place of status; None: no more."""
+    def set_differences(self, differences: Mapping[Pair, float] | None, other: str = "") -> None:
+        """Tint pairs by how much they differ from `other`, 0…1, in place of status; None: no more."""
         self.grid.pairs.differences = differences
+        self.legend.set_other(other if differences is not None else "")
         self.grid.pairs.refresh()
 
     def set_used(self, used: Mapping[Pair, int]) -> None:

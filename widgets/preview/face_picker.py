@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
     QListView,
     QListWidget,
     QListWidgetItem,
+    QMenu,
     QPushButton,
     QVBoxLayout,
     QWidget,
@@ -25,6 +26,7 @@ from .. import theme
 PORTRAIT = 96
 _CELL = QSize(PORTRAIT + 16, PORTRAIT + 38)
 _COLUMNS, _ROWS = 4, 2
+_LISTED = Qt.ItemDataRole.UserRole + 1
 
 
 @dataclass(frozen=True)
@@ -34,17 +36,23 @@ class Choice:
     key    what `picked` tells
     title  under its portrait
     about  its tooltip: where it is, what it is made of
+    listed it is here because it was opened before, and may be taken off the list
     """
 
     key: str
     title: str
     about: str = ""
+    listed: bool = False
 
 
 class FacePicker(QFrame):
-    """picked(key) with a click or Enter; file_wanted and folder_wanted for a face that is not here."""
+    """picked(key) with a click or Enter; file_wanted and folder_wanted for a face that is not here.
+
+    forgotten(key)  a face was taken off the list, by Del or its own menu
+    """
 
     picked = Signal(str)
+    forgotten = Signal(str)
     file_wanted = Signal()
     folder_wanted = Signal()
 
@@ -56,7 +64,7 @@ class FacePicker(QFrame):
         self.title.setFont(theme.font(bold=True))
         self.faces = QListWidget()
         self.faces.setAccessibleName(self.tr("Faces"))
-        self.faces.setAccessibleDescription(self.tr("Enter shows a face, Del removes it"))
+        self.faces.setAccessibleDescription(self.tr("Enter shows a face, Del takes one of yours off this list"))
         self.faces.setViewMode(QListView.ViewMode.IconMode)
         self.faces.setMovement(QListView.Movement.Static)
         self.faces.setResizeMode(QListView.ResizeMode.Adjust)
@@ -73,6 +81,8 @@ class FacePicker(QFrame):
             f"QListWidget::item:selected{{background:{theme.CHECKED.name()};color:{theme.BRIGHT.name()}}}"
         )
         self.faces.itemClicked.connect(self._pick)
+        self.faces.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
+        self.faces.customContextMenuRequested.connect(self._offer)
         bar = self.faces.verticalScrollBar().sizeHint().width()
         self.faces.setFixedSize(_COLUMNS * _CELL.width() + bar + 4, _ROWS * _CELL.height() + 4)
         self.file = QPushButton(theme.icon("file-outline"), self.tr("Open a file…"))
@@ -107,6 +117,7 @@ class FacePicker(QFrame):
         for choice in choices:
             item = QListWidgetItem(pictures.get(choice.key) or _blank(choice.title), choice.title)
             item.setData(Qt.ItemDataRole.UserRole, choice.key)
+            item.setData(_LISTED, choice.listed)
             item.setToolTip(choice.about or choice.title)
             item.setData(Qt.ItemDataRole.AccessibleTextRole, f"{choice.title}. {choice.about}")
             self.faces.addItem(item)
@@ -134,6 +145,8 @@ class FacePicker(QFrame):
         if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_Space) and self.faces.hasFocus():
             if (item := self.faces.currentItem()) is not None:
                 self._pick(item)
+        elif event.key() == Qt.Key.Key_Delete and (item := self.faces.currentItem()) is not None:
+            self._forget(item)
         elif event.key() == Qt.Key.Key_Escape:
             self.hide()
         else:
@@ -142,6 +155,20 @@ class FacePicker(QFrame):
     def _pick(self, item: QListWidgetItem) -> None:
         self.hide()
         self.picked.emit(str(item.data(Qt.ItemDataRole.UserRole)))
+
+    def _offer(self, at: QPoint) -> None:
+        """The menu of a face that may go."""
+        item = self.faces.itemAt(at)
+        if item is not None and item.data(_LISTED):
+            menu = QMenu(self)
+            menu.addAction(self.tr("Take off this list")).triggered.connect(lambda: self._forget(item))
+            menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+            menu.popup(self.faces.viewport().mapToGlobal(at))
+
+    def _forget(self, item: QListWidgetItem) -> None:
+        if item.data(_LISTED):
+            self.faces.takeItem(self.faces.row(item))
+            self.forgotten.emit(str(item.data(Qt.ItemDataRole.UserRole)))
 
     def _items(self) -> list[QListWidgetItem]:
         return [self.faces.item(row) for row in range(self.faces.count())]

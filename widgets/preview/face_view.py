@@ -22,6 +22,7 @@ from core_pipeline.faces.view import places
 
 from .. import theme
 from .name_tag import HEIGHT, NameTag, Tag
+from .notice import Notice
 
 _KEY_STEP = 20.0  # pixels of drag that one press of an arrow key stands for
 _MARGIN = 6
@@ -92,6 +93,7 @@ class FaceView(QWidget):
         column.addStretch()
         self._message.hide()
         self._retry.hide()
+        self.notice = Notice(self)
 
     def sizeHint(self) -> QSize:
         """A square that a face fits well."""
@@ -221,6 +223,8 @@ class FaceView(QWidget):
             self.zoomed.emit(-1.0)
         elif key == Qt.Key.Key_Home:
             self.reset_wanted.emit()
+        elif key == Qt.Key.Key_Escape and self.notice.text:
+            (self.notice.cross if self.notice.warns else self.notice.button).click()
         elif key == Qt.Key.Key_C and not event.modifiers():
             cut = not all(tag.cut for tag in self._tags)
             for index in range(len(self._tags)):

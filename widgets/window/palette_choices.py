@@ -16,6 +16,11 @@ MOST = 60
 _EXACT, _BEGINNING, _PIECES, _RECENT = 100.0, 14.0, 4.0, 6.0
 #: A choice found by its group first, "view layout", is worth less than one found by its title alone.
 _BY_GROUP = -6.0
+#: … unless a good part of the group's name is all that was typed: "compare" means those, not the word's bigrams.
+_GROUP, _GOOD_PART = 20.0, 4
+#: A phone's whole name is worth, per letter and once: more than letters scattered over a title, less than the
+#: beginning of one. One letter alone may be the beginning of anything.
+_PHONE_LETTER, _PHONE = 9.0, 3.0
 
 _BETWEEN = re.compile(r"[\s\-–—_,>→]+")
 
@@ -86,6 +91,8 @@ def _by_title(query: str, choice: Choice) -> tuple[float, tuple[int, ...]] | Non
     first, _, rest = query.strip().partition(" ")
     if not any(word.startswith(first.casefold()) for word in choice.group.casefold().split()):
         return None
+    if not rest and len(first) >= _GOOD_PART:
+        return _GROUP, ()
     inner = fit(rest, choice.title)
     return None if inner is None else (inner.score + _BY_GROUP, inner.places)
 
@@ -105,5 +112,7 @@ def _by_name(query: str, choice: Choice) -> tuple[float, tuple[int, ...]] | None
     if "".join(typed) == "".join(name):
         return _EXACT, tuple(range(len(choice.title)))
     if typed[:-1] == name[: len(typed) - 1] and len(typed) <= len(name) and name[len(typed) - 1].startswith(typed[-1]):
+        if len(name) > len(typed) == 1 < len(typed[0]) and typed == name[:1]:
+            return _PHONE_LETTER * len(typed[0]) + _PHONE, ()
         return _BEGINNING * (len(typed) - 1), ()
     return None

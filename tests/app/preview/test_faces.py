@@ -78,3 +78,45 @@ def test_a_bad_rig_is_a_sentence_and_the_next_one_opens(faces, qtbot, tmp_path):
     with qtbot.waitSignal(faces.opened) as caught:
         faces.open(as_glb(head(), tmp_path / "good.glb"), FACEFX)
     assert np.isfinite(caught.args[0].face.positions).all()
+
+
+def test_after_a_failure_the_face_that_is_there_is_the_one_to_come_back_to(faces, qtbot, tmp_path):
+    good, bad = as_glb(head(), tmp_path / "good.glb"), tmp_path / "bad.glb"
+    bad.write_bytes(b"glTF" + bytes(40))
+    with qtbot.waitSignal(faces.opened):
+        faces.open(good, FACEFX)
+    with qtbot.waitSignal(faces.failed):
+        faces.open(bad, FACEFX)
+    assert faces.path == good
+    assert not faces.reads
+
+
+def test_a_failure_with_another_pose_set_matches_the_face_that_is_there_to_it(faces, qtbot, tmp_path):
+    good, bad = as_glb(head(["jawOpen", "howl"]), tmp_path / "good.glb"), tmp_path / "bad.glb"
+    bad.write_bytes(b"glTF" + bytes(40))
+    with qtbot.waitSignal(faces.opened):
+        faces.open(good, FACEFX)
+    failed: list[str] = []
+    faces.failed.connect(failed.append)
+    with qtbot.waitSignal(faces.opened) as caught:
+        faces.open(bad, ("howl",))
+    assert len(failed) == 1
+    assert caught.args[0].retarget.poses["howl"] == {"howl": 1.0}
+    assert faces.path == good
+
+
+def test_cancelling_stays_with_the_face_before_and_tells_nothing(faces, qtbot, tmp_path, monkeypatch):
+    good, slow = as_glb(head(), tmp_path / "good.glb"), as_objs(head(), tmp_path / "slow")
+    with qtbot.waitSignal(faces.opened):
+        faces.open(good, FACEFX)
+    begun, go_on = threading.Event(), threading.Event()
+    monkeypatch.setattr(faces, "_told", lambda *_: lambda _: (begun.set(), go_on.wait(20)))
+    faces.open(slow, FACEFX)
+    assert begun.wait(20)
+    assert faces.reads
+    with qtbot.assertNotEmitted(faces.opened), qtbot.assertNotEmitted(faces.failed):
+        faces.cancel()
+        go_on.set()
+        qtbot.waitUntil(lambda: not any(thread.is_alive() for thread in faces._threads))
+    assert faces.path == good
+    assert not faces.reads

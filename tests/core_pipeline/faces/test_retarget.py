@@ -103,6 +103,12 @@ def test_an_avatar_with_two_conventions_takes_the_one_it_has_more_of():
     assert best([*NAMES["oculus15"], "jawOpen", "mouthSmile"], PRESETS).preset == "oculus15"
 
 
+def test_a_rig_with_few_shapes_takes_the_convention_that_makes_most_of_them():
+    found = best(("jawOpen", "mouthPucker", "mouthFunnel"), PRESETS)  # one shape for MetaHuman's four is one
+    assert found.preset == "arkit52"
+    assert {"open", "W", "ShCh"} <= set(found.poses)
+
+
 def test_vroids_names_are_vrms():
     vowels = [f"Face.M_F00_000_00_Fcl_MTH_{vowel}" for vowel in "AIUEO"]
     names = ["Fcl_ALL_Neutral", "Fcl_ALL_Joy", "Fcl_EYE_Close", "Fcl_MTH_Close"]

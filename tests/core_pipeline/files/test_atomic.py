@@ -97,6 +97,21 @@ def test_a_device_or_a_pipe_is_never_replaced(tmp_path: Path) -> None:
 
 
 @posix
+def test_a_named_pipe_is_not_waited_for_and_what_a_shell_pipes_is_read(tmp_path: Path) -> None:
+    pipe = tmp_path / "set.json"
+    os.mkfifo(pipe)
+    with pytest.raises(UserError, match=r"set\.json: it is a pipe, not a file"):
+        read_bytes(pipe, 100, "curve set")
+    source, sink = os.pipe()
+    with os.fdopen(sink, "wb") as writer:
+        writer.write(b"{}")
+    try:
+        assert read_bytes(f"/dev/fd/{source}", 100, "curve set") == b"{}"
+    finally:
+        os.close(source)
+
+
+@posix
 def test_a_read_only_file_or_folder_is_left_alone(tmp_path: Path) -> None:
     tmp_path.chmod(0o777)
     for folder in tmp_path.parents[:3]:  # pytest's own folders are private

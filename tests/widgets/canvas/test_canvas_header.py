@@ -72,6 +72,15 @@ def test_buttons_that_keys_replace_make_room_for_the_text(header):
     assert shown == sorted(shown, reverse=True)
 
 
+def test_the_bigram_is_whole_when_all_buttons_have_gone(header):
+    header.set_bigram("kg", "bmp")
+    title = header._title
+    for width in range(900, title.sizeHint().width() + 34, -5):
+        header.resize(width, header.height())
+        header.layout().activate()
+        assert title.width() >= title.sizeHint().width(), width
+
+
 def test_every_button_has_a_name_and_tells_its_key_in_the_present_map(joined):
     assert all(button.accessibleName() and button.toolTip() for button in joined.buttons)
     assert joined.button_of("frame_all").toolTip() == "Frame all (A)"

@@ -4,6 +4,7 @@ import pytest
 from PySide6.QtCore import QRect, Qt
 from PySide6.QtGui import QColor, QImage
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QMenu
 
 from widgets.preview.face_picker import Choice, FacePicker
 
@@ -81,3 +82,26 @@ def test_screen_readers_hear_name_and_place(picker):
     assert picker.faces.accessibleName()
     spoken = picker.faces.item(1).data(Qt.ItemDataRole.AccessibleTextRole)
     assert spoken == "Ada. somewhere/ada"
+
+
+def test_del_or_the_menu_takes_a_users_face_off_the_list_and_none_of_ours(qtbot, picker):
+    picker.open("Choose a face", [CHOICES[0], Choice("a.glb", "A", listed=True)], "toon", QRect(0, 0, 10, 10))
+    with qtbot.assertNotEmitted(picker.forgotten):
+        QTest.keyClick(picker.faces, Qt.Key.Key_Delete)
+        picker.faces.customContextMenuRequested.emit(picker.faces.visualItemRect(picker.faces.item(0)).center())
+    assert picker.findChildren(QMenu) == []
+    QTest.keyClick(picker.faces, Qt.Key.Key_Right)
+    with qtbot.waitSignal(picker.forgotten) as caught:
+        QTest.keyClick(picker.faces, Qt.Key.Key_Delete)
+    assert caught.args == ["a.glb"]
+    assert picker.keys == ["toon"]
+    assert picker.isVisible()
+
+    picker.open("Choose a face", [CHOICES[0], Choice("b.glb", "B", listed=True)], "toon", QRect(0, 0, 10, 10))
+    picker.faces.customContextMenuRequested.emit(picker.faces.visualItemRect(picker.faces.item(1)).center())
+    (menu,) = picker.findChildren(QMenu)
+    with qtbot.waitSignal(picker.forgotten) as caught:
+        QTest.keyClick(menu, Qt.Key.Key_Down)
+        QTest.keyClick(menu, Qt.Key.Key_Return)
+    assert caught.args == ["b.glb"]
+    assert picker.keys == ["toon"]

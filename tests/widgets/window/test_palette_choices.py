@@ -71,6 +71,20 @@ def test_the_first_phone_alone_finds_its_row():
     assert set(ids("f a", PAIRS)) == {"f-ah", "f-aa"}
 
 
+def test_a_phone_typed_whole_comes_before_letters_scattered_over_a_title():
+    blind, ship = Choice("blind", "Blind Comparison", "Tools"), Choice("shortcuts", "Show Shortcuts", "Help")
+    row = [Choice(f"{a}-ah", f"{a} – ah", "Bigram", name=f"{a} ah") for a in ("bmp", "sh", "b")]
+    assert ids("bmp", [blind, *row]) == ["bmp-ah", "blind"]
+    assert ids("sh", [*row, ship]) == ["shortcuts", "sh-ah"]  # it begins so
+    assert ids("b", [*row, blind])[0] == "blind"
+
+
+def test_a_groups_name_comes_before_the_bigrams_of_that_word():
+    word = [Choice("f-ah", "f – ah", "in “compare”")]
+    assert ids("compare", found=word)[:2] == ["opening", "f-ah"]
+    assert ids("comp", found=word)[:2] == ["opening", "f-ah"]
+
+
 def test_without_a_query_the_recent_come_first_and_bigrams_only_when_recent():
     others = ["open", "weights", "curves", "slide", "statistics", "opening", "redo"]
     assert ids("", recent=["layout", "f-ah", "gone"]) == ["layout", "f-ah", *others]
