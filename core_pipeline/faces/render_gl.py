@@ -30,6 +30,8 @@ _UPSIDE_DOWN = np.diag([1.0, -1.0, 1.0, 1.0])
 #: From -1…1 to 0…1.
 _HALF = np.array([[0.5, 0, 0, 0.5], [0, 0.5, 0, 0.5], [0, 0, 0.5, 0.5], [0, 0, 0, 1]])
 _SOFTWARE = ("llvmpipe", "softpipe", "swiftshader", "swrast", "software", "gdi generic")
+#: Alpha from which on a soft part is there where a pixel has but one sample.
+_HALF_THERE = 0.45
 #: A larger picture has hard edges: smooth ones would take half a gigabyte.
 _MOST_PIXELS = 9_000_000
 
@@ -182,11 +184,12 @@ class FaceGL(Renderer):  # type: ignore[misc]
             program.matrix("projection", projection)
             program.number("cut", 0.0 if batch.whole else cut)
             if batch.material is not None:
-                mesh.bind_picture(batch.material)
+                mesh.bind_picture(batch)
                 program.texture("picture", 0)
                 if not batch.solid:
-                    program.number("cutoff", batch.material.cutoff)
-                    program.number("fade", float(batch.material.soft and self._finer > 1))
+                    soft, cutoff = batch.material.soft, batch.material.cutoff
+                    program.number("cutoff", max(cutoff, _HALF_THERE) if soft else cutoff)
+                    program.number("fade", float(soft and self._finer > 1))
             (GL.glEnable if batch.closed and not inside else GL.glDisable)(GL.GL_CULL_FACE)
             mesh.draw(batch)
 

@@ -53,7 +53,7 @@ class FaceMesh(Primitive):  # type: ignore[misc]
         self._moving = 0
         self._texcoords = face.texcoords
         self._pictures = face.textures
-        self._textures: list[int] = []
+        self._textures: dict[tuple[int, bool], int] = {}  # by picture, and whether its alpha counts
         self.inner_sides = InnerSides(face)
         order, self.batches = _batches(face, ~self.inner_sides.may_show)
         # The base class keeps indices as float32; these go to the card as they are.
@@ -77,7 +77,11 @@ class FaceMesh(Primitive):  # type: ignore[misc]
         GL.glBindBuffer(GL.GL_ELEMENT_ARRAY_BUFFER, corners)
         GL.glBufferData(GL.GL_ELEMENT_ARRAY_BUFFER, self._corners.nbytes, self._corners, GL.GL_STATIC_DRAW)
         GL.glBindVertexArray(0)
-        self._textures = [_texture(picture) for picture in self._pictures]
+        for batch in self.batches:
+            if batch.material is not None:
+                key = (batch.material.texture, batch.solid)
+                if key not in self._textures:
+                    self._textures[key] = _texture(self._pictures[key[0]], not batch.solid)
 
     def _add_still(self, location: int, values: Floats) -> None:
         values = np.ascontiguousarray(values, np.float32)
@@ -91,8 +95,8 @@ class FaceMesh(Primitive):  # type: ignore[misc]
     def _remove_from_context(self) -> None:
         super()._remove_from_context()
         if self._textures:
-            GL.glDeleteTextures(self._textures)
-            self._textures = []
+            GL.glDeleteTextures(list(self._textures.values()))
+            self._textures = {}
 
     def update(self, vertices: Floats) -> None:
         """Replace positions and normals: (n, 6), contiguous."""
@@ -101,10 +105,11 @@ class FaceMesh(Primitive):  # type: ignore[misc]
         GL.glBindBuffer(GL.GL_ARRAY_BUFFER, self._moving)
         GL.glBufferSubData(GL.GL_ARRAY_BUFFER, 0, vertices.nbytes, vertices)
 
-    def bind_picture(self, material: Material) -> None:
-        """For the shader to read, in texture unit 0."""
-        GL.glActiveTexture(GL.GL_TEXTURE0)
-        GL.glBindTexture(GL.GL_TEXTURE_2D, self._textures[material.texture])
+    def bind_picture(self, batch: Batch) -> None:
+        """What lies on a batch, for the shader to read, in texture unit 0."""
+        if batch.material is not None:
+            GL.glActiveTexture(GL.GL_TEXTURE0)
+            GL.glBindTexture(GL.GL_TEXTURE_2D, self._textures[batch.material.texture, batch.solid])
 
     def draw(self, batch: Batch) -> None:
         """With the program that is in use."""
@@ -133,11 +138,17 @@ def _batches(face: Face, closed: NDArray[np.bool_]) -> tuple[NDArray[np.intp], l
     return order, batches
 
 
-def _texture(texture: Texture) -> int:
-    """Upload a picture, with smaller ones of it for when it is seen from afar."""
+def _texture(texture: Texture, premultiplied: bool) -> int:
+    """Upload a picture, with smaller ones of it for when it is seen from afar.
+
+    premultiplied  by its alpha: what is not there is often black, and must not darken the edge of what is
+    """
     name = int(GL.glGenTextures(1))
     GL.glBindTexture(GL.GL_TEXTURE_2D, name)
     picture = np.ascontiguousarray(texture.picture)
+    if premultiplied:
+        alpha = picture[..., 3:].astype(np.uint16)
+        picture = np.concatenate([((picture[..., :3] * alpha + 127) // 255).astype(np.uint8), picture[..., 3:]], axis=2)
     height, width = picture.shape[:2]
     GL.glTexImage2D(GL.GL_TEXTURE_2D, 0, GL.GL_RGBA8, width, height, 0, GL.GL_RGBA, GL.GL_UNSIGNED_BYTE, picture)
     GL.glGenerateMipmap(GL.GL_TEXTURE_2D)

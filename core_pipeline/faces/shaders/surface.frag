@@ -4,7 +4,7 @@ in vec3 v_normal;
 in vec4 v_colour;
 #ifdef PICTURED
 in vec2 v_texcoord;
-uniform sampler2D picture;   // sRGB and alpha
+uniform sampler2D picture;   // sRGB and alpha; premultiplied where alpha counts
 #endif
 #ifdef CUT_OUT
 uniform float cutoff;        // alpha below which nothing is there
@@ -26,6 +26,7 @@ void main() {
     vec2 odd = mod(floor(gl_FragCoord.xy), 2.0);
     float spread = mix(mix(0.2, 0.6, odd.x), mix(0.8, 0.4, odd.x), odd.y);
     if (texel.a < mix(cutoff, spread, fade)) discard;
+    texel.rgb /= max(texel.a, 0.01);
 #endif
     // sRGB to linear, within 0.2 %: what a hardware sRGB texture does, but cheaper in software.
     colour.rgb *= texel.rgb * (texel.rgb * (texel.rgb * 0.305306011 + 0.682171111) + 0.012522878);

@@ -144,3 +144,12 @@ def test_a_picture_goes_with_its_face_and_comes_back():
     renderer.close()
     assert names[:2] == ["green", "blue"]
     assert names[3] == "green"
+
+
+def test_black_where_nothing_is_does_not_darken_the_edge():
+    """A picture of clear black with a light middle: between the two nothing is darker than the middle itself."""
+    face = plate([(0, 0, 0, 0)], material=Material(0, 0.3))
+    spot = np.zeros((8, 8, 4), np.uint8)
+    spot[2:6, 2:6] = (200, 200, 200, 255)
+    pixels = drawn(replace(face, textures=(Texture(spot, ("clamp", "clamp")),)))[..., 1]
+    assert pixels[pixels > 8].min() > 0.9 * pixels.max()
