@@ -3,6 +3,7 @@
 Run with: pytest tests/bench/test_bench_render.py --benchmark-only --benchmark-enable
 """
 
+from dataclasses import replace
 from itertools import count
 
 import numpy as np
@@ -12,6 +13,7 @@ from app import resources
 from core_pipeline.faces import face_folder
 from core_pipeline.faces.blend import Blend
 from core_pipeline.faces.render import Figure, Renderer
+from core_pipeline.faces.texture import Material, Texture
 from core_pipeline.faces.view import View
 from tests.helpers.ball import ball
 from tests.helpers.budget import within
@@ -62,10 +64,23 @@ def test_three_of_ours_moving(benchmark, renderer):
     within(benchmark, 2 * MOVING)
 
 
-def test_a_large_rig_moving(benchmark, renderer):
-    """25,000 vertices, 50 shapes."""
+@pytest.mark.parametrize("pictured", [False, True])
+def test_a_large_rig_moving(benchmark, renderer, pictured):
+    """25,000 vertices, 50 shapes; bare, and under a picture of 2048 × 2048 pixels."""
     shapes = ["jawOpen", *(name for name in NAMES["arkit52"] if name != "jawOpen")][:50]
-    draw(benchmark, renderer, [head(shapes, rings=112)])
+    face = head(shapes, rings=112)
+    if pictured:
+        picture = np.full((2048, 2048, 4), 255, np.uint8)
+        picture[..., :3] = np.random.default_rng(1).integers(0, 256, (2048, 2048, 1))
+        around = np.arctan2(face.positions[:, 0], face.positions[:, 2]) / (2 * np.pi) + 0.5
+        face = replace(
+            face,
+            parts={"skin": (0, len(face.triangles))},
+            textures=(Texture(picture),),
+            materials={"skin": Material(0)},
+            texcoords=np.stack([around, -0.5 * face.positions[:, 1]], -1).astype(np.float32),
+        )
+    draw(benchmark, renderer, [face])
     within(benchmark, 1 / 30)
 
 
