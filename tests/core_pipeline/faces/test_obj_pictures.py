@@ -103,7 +103,7 @@ def test_every_corner_has_the_place_position_and_motion_the_files_say(tmp_path_f
     pictured = bool(expected["skin"])
     found = face.triangles.ravel()
     assert len(found) == len(expected["bare"] + expected["skin"])
-    assert len(face.parts) == bool(expected["skin"]) + bool(expected["bare"])
+    assert len(face.parts) == (bool(expected["bare"]) + 1 if pictured else 1)
     for number, (v, _) in zip(found, expected["bare"] + expected["skin"], strict=True):
         np.testing.assert_array_equal(face.positions[number], points[v - 1])
         np.testing.assert_array_equal(face.deltas[0, number], moved[v - 1] - points[v - 1])
@@ -121,8 +121,9 @@ def test_parts_with_and_without_pictures(tmp_path):
     text = NEUTRAL.replace("f 1/1 2/2 3/3 4/4", "f 1/1 2/2 3/3\nusemtl teeth\nf 1/1 3/3 4/4")
     up = LIFTED.replace("f 1 2 3 4", "f 1 2 3\nf 1 3 4")
     face = read(tmp_path, text, up=up)
-    assert dict(face.parts) == {tmp_path.name: (0, 1), "skin": (1, 1)}
-    teeth, skin = (face.colours[face.triangles[number]] for number in (0, 1))
+    assert dict(face.parts) == {"skin": (0, 1), "teeth": (1, 1)}
+    assert list(face.materials) == ["skin"]
+    skin, teeth = (face.colours[face.triangles[number]] for number in (0, 1))
     assert (teeth[:, :3] < 0.9).all(), "in a colour of their own, though they share vertices"
     assert (skin[:, :3] == 1).all()
 
