@@ -1,5 +1,6 @@
 """Pictures on .obj poses: the neutral's materials say where they are, and the poses still correspond by number."""
 
+import random
 from itertools import pairwise
 
 import numpy as np
@@ -288,3 +289,32 @@ def test_a_changed_material_or_picture_is_read_again(tmp_path, name):
     np.testing.assert_array_equal(again.texcoords, first.texcoords)
     (rig / name).write_bytes(b"# nothing")
     assert open_face(rig, (), cache=tmp_path / "cache").face.textures == ()
+
+
+# --- spoiled files
+
+
+@pytest.mark.parametrize("name", ["neutral.obj", "face.mtl", "skin.png"])
+def test_a_spoiled_file_is_a_face_or_a_sentence(tmp_path, name):
+    chance = random.Random(2013)
+    rig = folder(tmp_path, mtl=MTL + "map_d -clamp on skin.png\n", skin=png(np.full((3, 3, 4), 200)))
+    whole = (rig / name).read_bytes()
+    pictured, sentences = 0, []
+    for _ in range(150):
+        raw = bytearray(whole)
+        for _ in range(chance.randint(1, 3)):
+            raw[chance.randrange(len(raw))] = chance.choice(b" \n/-.0159vtfmd#" + bytes([chance.randrange(256)]))
+        (rig / name).write_bytes(raw)
+        try:
+            face, notes = read_obj_folder(rig)
+        except UserError as error:
+            sentences.append(str(error))
+            continue
+        sentences += notes
+        assert face.triangles.max() < len(face.positions)
+        pictured += bool(face.textures)
+        if face.textures:
+            assert np.isfinite(face.texcoords).all()
+            assert face.texcoords.shape == (len(face.positions), 2)
+    assert all(sentence.isprintable() for sentence in sentences)
+    assert 0 < pictured < 150, "some damage does not matter, and some does"
