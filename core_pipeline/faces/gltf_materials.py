@@ -22,6 +22,7 @@ from core_pipeline.faces.texture import Material, Texture, Wrap
 
 #: A material whose colour is as light as that has left all colour to its picture.
 _WHITE = 0.95
+_SEE_THROUGH = ("MASK", "BLEND")
 _WRAPS: dict[float, Wrap] = {10497: "repeat", 33071: "clamp", 33648: "mirror"}
 
 Triangles = NDArray[np.uint32]
@@ -76,13 +77,15 @@ class Materials:
         colours[:, :3] *= base[:3]
         picture = gltf.part(surface, "baseColorTexture") or gltf.part(older, "diffuseTexture")
         lying = self._lying(primitive, picture) if picture and count else None
-        expected = None
+        shown, cutoff, soft = self._seen(material, float(base[3]), alpha[triangles].mean(axis=1), lying, triangles)
         if picture and lying is None and "COLOR_0" not in gltf.part(primitive, "attributes") and min(base[:3]) > _WHITE:
             expected = named_colour(f"{name} {material.get('name', '')}") or SKIN
-            colours[:, :3] *= expected[:3]
-        shown, cutoff, soft = self._seen(material, float(base[3]), alpha[triangles].mean(axis=1), lying, triangles)
-        if expected is not None and expected[3] < 0:
-            shown[:] = False
+            if expected[3] >= 0:
+                colours[:, :3] *= expected[:3]
+            elif material.get("alphaMode") in _SEE_THROUGH:
+                shown[:] = False  # a cornea of which we cannot see how clear it is
+            else:
+                colours[:, :3] *= SKIN[:3]
         colours = np.clip(colours, 0, 1)
         if lying is None or not shown.any():
             return Surface(colours, shown)
@@ -113,7 +116,7 @@ class Materials:
         alpha  (m,) of the vertices' own colours
         """
         mode = material.get("alphaMode")
-        if mode not in ("MASK", "BLEND"):
+        if mode not in _SEE_THROUGH:
             return np.ones(len(triangles), bool), 0.0, False
         soft = mode == "BLEND"
         least = FAINT if soft else float(self._gltf.floats([material.get("alphaCutoff", 0.5)], 1)[0])

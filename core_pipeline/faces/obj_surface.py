@@ -43,7 +43,7 @@ class Surface:
 
 
 def surface(base: ObjFile, title: str) -> Surface:
-    """The surface of a neutral; `title` names the part on which nothing lies.
+    """The surface of a neutral. With pictures, every material is a part; `title` names what has none, or everything.
 
     UserError when its faces are damaged, or a picture is far too large.
     """
@@ -74,9 +74,8 @@ def surface(base: ObjFile, title: str) -> Surface:
         if materials[name].soft and texture is not None and texcoords is not None:
             shown[on == number] &= seen_through(texture, texcoords, triangles[on == number], 1.0)
     scaffold = any(is_scaffold(found.name) for found in base.stretches)
-    order = np.argsort(on, kind="stable")
-    order = order[shown[order]] if shown.any() else order
-    parts = _parts(on[order], names, title)
+    titles = [found.material if names and found.material else title for found in base.stretches]
+    order, parts = _parts(titles, stretch, shown if shown.any() else ~shown)
     return Surface(
         triangles[order],
         colours,
@@ -136,10 +135,17 @@ def _colours(base: ObjFile, triangles: Triangles, told: Floats, on: Ints, source
     return colours
 
 
-def _parts(on: Ints, names: list[str], title: str) -> dict[str, tuple[int, int]]:
-    """One part for each picture, and one before them for what has none."""
-    titles = [title if title not in names else f"{title} (2)", *names]
-    counts = np.bincount(on + 1, minlength=len(titles))
+def _parts(titles: list[str], stretch: Ints, shown: NDArray[np.bool_]) -> tuple[Ints, dict[str, tuple[int, int]]]:
+    """Which of the triangles that are `shown` come one after the other, and the parts they make.
+
+    titles   name of the part that each stretch of polygons belongs to
+    stretch  (m,) which one a triangle belongs to
+    """
+    names = sorted(set(titles))
+    number = np.array([names.index(title) for title in titles])[stretch]
+    order = np.argsort(number, kind="stable")
+    order = order[shown[order]]
+    counts = np.bincount(number[order], minlength=len(names))
     ends = np.cumsum(counts)
-    found = zip(titles, (ends - counts).tolist(), counts.tolist(), strict=True)
-    return {name: (first, count) for name, first, count in found if count}
+    found = zip(names, (ends - counts).tolist(), counts.tolist(), strict=True)
+    return order, {name: (first, count) for name, first, count in found if count}

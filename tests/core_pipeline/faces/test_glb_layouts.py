@@ -11,7 +11,7 @@ from core_pipeline.faces import glb
 from core_pipeline.faces.glb import read_glb, read_rig
 from tests.helpers.gltf import Gltf, tetrahedron
 from tests.helpers.meshopt_streams import packed_tetrahedron
-from tests.helpers.pictures import textured
+from tests.helpers.pictures import png, textured
 
 
 def read(tmp_path, gltf, name="face.glb"):
@@ -96,9 +96,13 @@ def test_it_tells_how_far_it_is_and_can_be_ended_there(tmp_path):
 
 
 def everything():
-    """One file with a skin, a picture, a sparse and a packed shape, two meshes and vertex colours."""
+    """One file with a skin, a see-through picture, a sparse and a packed shape, two meshes and vertex colours."""
     gltf = packed_tetrahedron()
-    dressed = textured()
+    dressed = textured(png(np.full((2, 2, 4), 200)), alphaMode="MASK", alphaCutoff=0.3)
+    texture = dressed.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]
+    texture["extensions"] = {"KHR_texture_transform": {"offset": [0, 1], "rotation": 1.5, "scale": [2, 0.5]}}
+    dressed.json["samplers"] = [{"wrapS": 33071, "wrapT": 33648}]
+    dressed.json["textures"][0]["sampler"] = 0
     base = len(gltf.data)
     first_view, first_accessor = len(gltf.json["bufferViews"]), len(gltf.json["accessors"])
     gltf.data += dressed.data
@@ -116,7 +120,7 @@ def everything():
     primitive["attributes"]["COLOR_0"] = gltf.accessor(np.full((4, 4), 200, np.uint8), normalized=True)
     gltf.json["meshes"].append(mesh)
     gltf.json["images"] = [{"bufferView": dressed.json["images"][0]["bufferView"] + first_view}]
-    for part in ("textures", "materials"):
+    for part in ("textures", "samplers", "materials"):
         gltf.json[part] = dressed.json[part]
     gltf.json["skins"] = [
         {"joints": [2, 3], "inverseBindMatrices": gltf.accessor(np.tile(np.eye(4, dtype=np.float32).ravel(), (2, 1)))}
@@ -130,6 +134,8 @@ def everything():
 def test_everything_at_once(tmp_path):
     face = read(tmp_path, everything())
     assert face.shapes == ("up",)
+    assert [texture.wrap for texture in face.textures] == [("clamp", "mirror")]
+    assert [material.cutoff for material in face.materials.values()] == [0.3]
     corners = {tuple(corner) for corner in face.positions.tolist()}
     assert {(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)} <= corners
     assert {tuple(delta) for delta in face.deltas[0].tolist()} >= {(0, 0, 0), (0, 1, 0)}

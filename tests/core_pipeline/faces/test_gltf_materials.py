@@ -14,6 +14,7 @@ from PIL import Image
 from core_pipeline.errors import UserError
 from core_pipeline.faces import album
 from core_pipeline.faces.glb import read_glb, read_rig
+from core_pipeline.faces.obj_colours import SKIN
 from core_pipeline.faces.texture import Material
 from tests.helpers.gltf import tetrahedron
 from tests.helpers.pictures import COLOURS, FOUR, huge_png, png, seen_colours, textured
@@ -268,12 +269,16 @@ def test_without_its_package_a_ktx_picture_is_told_and_names_give_the_colours(tm
 
 
 def test_names_tell_of_shells_that_are_not_to_be_seen(tmp_path):
+    """Where light goes through, that is: a head may be called anything."""
     gltf = two_parts(1)
     gltf.json["images"].append({"bufferView": gltf.view(np.zeros(9, np.uint8))})
     gltf.json["textures"].append({"source": 1})
     gltf.json["materials"][1]["name"] = "Std_Cornea_L"
     face = read(tmp_path, gltf)
-    assert list(face.parts.values()) == [(0, 4), (4, 0)]
+    assert list(face.parts.values()) == [(0, 4), (4, 4)]
+    np.testing.assert_allclose(face.colours[4:, :3], [SKIN[:3]] * 4)
+    gltf.json["materials"][1]["alphaMode"] = "BLEND"
+    assert list(read(tmp_path, gltf).parts.values()) == [(0, 4), (4, 0)]
 
 
 # --- what light goes through

@@ -1,5 +1,6 @@
 """Pictures on .obj poses: the neutral's materials say where they are, and the poses still correspond by number."""
 
+import random
 from itertools import pairwise
 
 import numpy as np
@@ -103,7 +104,7 @@ def test_every_corner_has_the_place_position_and_motion_the_files_say(tmp_path_f
     pictured = bool(expected["skin"])
     found = face.triangles.ravel()
     assert len(found) == len(expected["bare"] + expected["skin"])
-    assert len(face.parts) == bool(expected["skin"]) + bool(expected["bare"])
+    assert len(face.parts) == (bool(expected["bare"]) + 1 if pictured else 1)
     for number, (v, _) in zip(found, expected["bare"] + expected["skin"], strict=True):
         np.testing.assert_array_equal(face.positions[number], points[v - 1])
         np.testing.assert_array_equal(face.deltas[0, number], moved[v - 1] - points[v - 1])
@@ -121,8 +122,9 @@ def test_parts_with_and_without_pictures(tmp_path):
     text = NEUTRAL.replace("f 1/1 2/2 3/3 4/4", "f 1/1 2/2 3/3\nusemtl teeth\nf 1/1 3/3 4/4")
     up = LIFTED.replace("f 1 2 3 4", "f 1 2 3\nf 1 3 4")
     face = read(tmp_path, text, up=up)
-    assert dict(face.parts) == {tmp_path.name: (0, 1), "skin": (1, 1)}
-    teeth, skin = (face.colours[face.triangles[number]] for number in (0, 1))
+    assert dict(face.parts) == {"skin": (0, 1), "teeth": (1, 1)}
+    assert list(face.materials) == ["skin"]
+    skin, teeth = (face.colours[face.triangles[number]] for number in (0, 1))
     assert (teeth[:, :3] < 0.9).all(), "in a colour of their own, though they share vertices"
     assert (skin[:, :3] == 1).all()
 
@@ -287,3 +289,32 @@ def test_a_changed_material_or_picture_is_read_again(tmp_path, name):
     np.testing.assert_array_equal(again.texcoords, first.texcoords)
     (rig / name).write_bytes(b"# nothing")
     assert open_face(rig, (), cache=tmp_path / "cache").face.textures == ()
+
+
+# --- spoiled files
+
+
+@pytest.mark.parametrize("name", ["neutral.obj", "face.mtl", "skin.png"])
+def test_a_spoiled_file_is_a_face_or_a_sentence(tmp_path, name):
+    chance = random.Random(2013)
+    rig = folder(tmp_path, mtl=MTL + "map_d -clamp on skin.png\n", skin=png(np.full((3, 3, 4), 200)))
+    whole = (rig / name).read_bytes()
+    pictured, sentences = 0, []
+    for _ in range(150):
+        raw = bytearray(whole)
+        for _ in range(chance.randint(1, 3)):
+            raw[chance.randrange(len(raw))] = chance.choice(b" \n/-.0159vtfmd#" + bytes([chance.randrange(256)]))
+        (rig / name).write_bytes(raw)
+        try:
+            face, notes = read_obj_folder(rig)
+        except UserError as error:
+            sentences.append(str(error))
+            continue
+        sentences += notes
+        assert face.triangles.max() < len(face.positions)
+        pictured += bool(face.textures)
+        if face.textures:
+            assert np.isfinite(face.texcoords).all()
+            assert face.texcoords.shape == (len(face.positions), 2)
+    assert all(sentence.isprintable() for sentence in sentences)
+    assert 0 < pictured < 150, "some damage does not matter, and some does"
