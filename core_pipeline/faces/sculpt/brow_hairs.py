@@ -10,7 +10,7 @@ from core_pipeline.faces.sculpt.piece import Piece, mirror, paint
 from core_pipeline.faces.sculpt.sdf import Array, Solid, smoothstep
 
 STEPS = np.array([0.0, 0.4, 0.75, 1.0])
-WIDE = 0.0052
+WIDE = 0.0038
 
 
 def brow_hairs(character: Character, clay: Solid) -> list[Piece]:
@@ -21,7 +21,10 @@ def brow_hairs(character: Character, clay: Solid) -> list[Piece]:
     per_hair = 2 * len(STEPS) - 1
     strip = [(0, 1, 2), (1, 3, 2), (2, 3, 4), (3, 5, 4), (4, 5, 6)]
     triangles = (np.arange(shape.hairs)[:, None, None] * per_hair + np.array(strip)).reshape(-1, 3)
-    right = Piece("brow_right", rest, triangles, paint(len(rest), character.palette.brow, 0.3), poses)
+    colours = paint(len(rest), character.palette.brow, 0.15)
+    own = 0.8 + 0.9 * ((np.arange(shape.hairs) * 0.3819660) % 1)
+    colours[:, :3] *= np.repeat(own, per_hair)[:, None]
+    right = Piece("brow_right", rest, triangles, colours, poses)
     return [right, mirror(right, "brow_left")]
 
 
@@ -39,7 +42,7 @@ def _hairs(character: Character, clay: Solid, lift: float) -> Array:
     slope = np.gradient(y, x)
     lean = np.radians(30 * (1 - u) ** 2 + 40 * np.exp(-u / 0.05) - 12 * u - 11 * level) + 0.8 * np.arctan(slope)
     length = (0.042 + 0.022 * np.sin(np.pi * u)) * (0.7 + 0.6 * ((number * 0.754878) % 1))
-    root_y = y + level * 0.72 * half + character.eyes.centre[1] + lift
+    root_y = y + level * 0.85 * half + character.eyes.centre[1] + lift
     length = length * (1 - 0.5 * smoothstep(0.75, 1.0, u))
     bend = -0.18 * level * STEPS[:, None]
     px = x + STEPS[:, None] * length * np.cos(lean + bend)

@@ -14,6 +14,7 @@ from core_pipeline.faces.sculpt.crab_body import Crab
 from core_pipeline.faces.sculpt.crab_pieces import crab_pieces
 from core_pipeline.faces.sculpt.eyes import eyes
 from core_pipeline.faces.sculpt.hair import hair
+from core_pipeline.faces.sculpt.hidden import never_seen
 from core_pipeline.faces.sculpt.lashes import lashes
 from core_pipeline.faces.sculpt.lids import LID
 from core_pipeline.faces.sculpt.mouth import Lips
@@ -25,9 +26,14 @@ from core_pipeline.faces.sculpt.teeth import teeth
 from core_pipeline.faces.sculpt.tongue import tongue
 from core_pipeline.faces.sculpt.trimmings import body, brows, ears
 
+#: What a cut-away shows, though nothing else may; the skin gives its head a shape inside.
+INNARDS = ("skin", "mouth", "lips", "teeth", "gums", "tongue", "eye", "glint")
 UNSHADED = ("mouth", "lips", "teeth", "gums", "tongue", "eye", "glint", "lid", "lash")
-#: What shows no inner side to the front: bodies and tubes whose open ends lie within others. Hair does.
-CLOSED = ("mouth", "lips", "skin", "lid_rims", "teeth", "gums", "tongue", "eye", "glint", "brow", "ear", "spot")
+#: What shows no inner side to the front: bodies, tubes whose open ends lie within others, and lashes of two sides.
+CLOSED = (*INNARDS, "lid", "lash", "brow", "hair", "ear", "neck", "collar", "shirt", "arm", "leg", "claw")
+CLOSED += ("finger", "spike", "spot", "stalk")
+#: What moves less in every pose, in head radii, stands still for whoever looks.
+STILL = 1e-3
 FLESH = np.array([0.8, 1.1, 1.2])  # shade on skin is warm
 Colours = NDArray[np.float32]
 IDLE = ("blink", "browUp")
@@ -55,7 +61,7 @@ def pieces(character: Character) -> list[Piece]:
         *brows(character, scalp),
         hair(character, scalp),
         *ears(character),
-        *body(character),
+        *body(character, scalp),
     ]
 
 
@@ -74,21 +80,43 @@ def assemble(character: Character, made: list[Piece]) -> Face:
             character, colours, sky(positions.astype(float), rest.astype(float), triangles), triangles, parts
         )
     normal_deltas = np.stack([normals.of(positions + delta) - rest for delta in deltas])
+    kept = _worth_keeping(positions, triangles, deltas, parts)
+    used, corners = np.unique(triangles[kept], return_inverse=True)
     return Face(
         name=character.name,
         title=character.title,
-        positions=positions,
-        normals=rest,
-        triangles=triangles,
-        colours=np.clip(colours, 0, 1),
+        positions=positions[used],
+        normals=rest[used],
+        triangles=corners.reshape(-1, 3).astype(np.uint32),
+        colours=np.clip(colours[used], 0, 1),
         shapes=shapes,
-        deltas=deltas,
-        normal_deltas=normal_deltas,
+        deltas=deltas[:, used],
+        normal_deltas=normal_deltas[:, used],
         pose_map=character.pose_map,
-        parts=parts,
+        parts=_parts_of(kept, parts),
         closed=frozenset(name for name in parts if name.startswith(CLOSED)),
         camera=character.camera,
     )
+
+
+def _worth_keeping(
+    positions: Colours, triangles: NDArray[np.uint32], deltas: Colours, parts: Mapping[str, tuple[int, int]]
+) -> NDArray[np.bool_]:
+    """(m,) bool: what moves, what can be seen from outside at rest or in a wild mixture of poses, and the innards."""
+    still = ~(np.abs(deltas) > STILL).any(axis=(0, 2))[triangles].any(axis=1)
+    for name, (first, count) in parts.items():
+        if name.startswith(INNARDS):
+            still[first : first + count] = False
+    # the first pose is the open mouth
+    stirred = positions + deltas[0] + deltas[-len(IDLE) :].sum(axis=0)
+    return ~never_seen([positions.astype(float), stirred.astype(float)], triangles, still)
+
+
+def _parts_of(kept: NDArray[np.bool_], parts: Mapping[str, tuple[int, int]]) -> dict[str, tuple[int, int]]:
+    """Where the parts are once only the `kept` triangles are left."""
+    before = np.append(0, np.cumsum(kept))
+    ends = {name: (before[first], before[first + count]) for name, (first, count) in parts.items()}
+    return {name: (int(first), int(end - first)) for name, (first, end) in ends.items()}
 
 
 def _shaded(

@@ -18,6 +18,7 @@ Pair = tuple[float, float]
 class Mouth:
     """The lips at rest, and what lies behind them; `rim` is how high each lip is at least, also at the corners.
 
+    taper  how much thinner than their middle the lips are towards the corners: 1 is an ellipse
     inset  0…1: how far the inside of the corners is drawn in; on a strongly curved face it would come out beside them
     """
 
@@ -31,6 +32,7 @@ class Mouth:
     lap: float = 0.02
     bow: float = 1.0
     rim: float = 0.026
+    taper: float = 1.05
     corner_jaw: float = 0.36
     hinge: Point = (0.0, -0.10, -0.05)
     bag: tuple[float, float, float] = (0.40, 0.24, 0.62)
@@ -39,7 +41,10 @@ class Mouth:
 
 @dataclass(frozen=True)
 class Dentition:
-    """Two rows of teeth on a horseshoe: half width, depth; and the heights that matter relative to the lips' line."""
+    """Two rows of teeth on a horseshoe: half width, depth; and the heights that matter relative to the lips' line.
+
+    sink  how much lower the edges of the lower row lie at its sides
+    """
 
     half_width: float = 0.30
     depth: float = 0.42
@@ -49,6 +54,7 @@ class Dentition:
     lower_height: float = 0.12
     bite: float = 0.012
     thickness: float = 0.034
+    sink: float = 0.06
     per_side: int = 6
 
 
@@ -170,8 +176,10 @@ class Sheet:
     """A layer of hair between guide strands: each is a line of points in space from root to tip, all equally many.
 
     The guides go from the face to the back of the head. `height` is the least distance from the scalp, `thickness`
-    of the layer, `clumps` how many strands it shows, `ragged` how much their tips differ (part of their length),
-    `wave` how far they swing to the sides and `waves` how often.
+    of the layer, `clumps` how many strands it shows: their number times the columns of each, and one, are `columns`.
+    `ragged` is how much their tips differ (part of their length), `wave` how far they swing to the sides and `waves`
+    how often. `edge` is the part of its width on which it thins out at either side (0 where the sides meet),
+    `relief` how deep the clumps are parted (0…1), `streaks` how much single strands differ in lightness.
     """
 
     guides: tuple[tuple[Point, ...], ...]
@@ -181,6 +189,9 @@ class Sheet:
     ragged: float = 0.08
     wave: float = 0.0
     waves: float = 1.6
+    edge: float = 0.10
+    relief: float = 0.55
+    streaks: float = 0.10
     columns: int = 28
     rows: int = 18
     mirrored: bool = True

@@ -38,7 +38,7 @@ def uneven(character: Character, points: Array, tone: Array) -> Array:
         height = np.interp(np.abs(x), line[:, 0], line[:, 1])
         half = np.interp(np.abs(x), line[:, 0], line[:, 2], left=0.0, right=0.0)
         ground = np.exp(-(((low - height) / (0.6 * half + 0.006)) ** 2)) * (half > 0)
-        toward(linear(palette.brow), 0.42 * ground)
+        toward(linear(palette.brow), 0.55 * ground)
     return added
 
 

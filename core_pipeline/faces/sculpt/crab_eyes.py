@@ -26,7 +26,7 @@ OVERLAP = 1.5
 def stalk_eyes(crab: Crab) -> list[Piece]:
     """Balls, glints, visors and stalks of both eyes."""
     lift = np.array([0, crab.stalks.lift[0], 0])
-    balls = [replace(piece, poses={"browUp": piece.positions + lift}) for piece in eyes(crab)]
+    balls = [replace(piece, poses={"browUp": piece.positions + lift}) for piece in eyes(crab, lids=False)]
     pieces = [_visor(crab, "lid_upper", upper=True), _visor(crab, "lid_lower", upper=False), _stalk(crab)]
     return [*balls, *pieces, *(mirror(piece, piece.name.replace("right", "left")) for piece in pieces)]
 
@@ -45,7 +45,7 @@ def _visor(crab: Crab, name: str, *, upper: bool) -> Piece:
     colours = paint(len(rest), crab.palette.lid, 0.5)
     rim = np.repeat(smoothstep(0.06, 0.02, SECTION[:, 0]), COLUMNS)[:, None]
     colours[:, :3] += rim * (0.6 * linear(crab.palette.lid) - colours[:, :3])
-    return Piece(f"{name}_right", rest, triangles[:, ::-1] if upper else triangles, colours, poses)
+    return Piece(f"{name}_right", rest, triangles if upper else triangles[:, ::-1], colours, poses)
 
 
 def _turned(crab: Crab, edge: float, shown: float) -> Array:

@@ -95,10 +95,7 @@ class Shell:
         # the lattice's triangles come in two halves; sort them by row so that each part is one range
         tube = tube[np.argsort(np.tile(np.repeat(np.arange(rows - 1), columns), 2), kind="stable")]
         throat = fan(np.arange(columns), inner - 1)
-        on_rim = np.flatnonzero(np.linalg.norm(self.layout.points, axis=1) > RIM - 1e-6)
-        around = np.argsort(np.arctan2(*self.layout.points[on_rim].T))
-        self._rim = on_rim[around]
-        back = fan(number[self._rim], inner + int(self._own.sum()))
+        back = fan(number[self.layout.rim], inner + int(self._own.sum()))
         shell = np.concatenate([number[self.layout.triangles], back])
         self.triangles: Triangles = np.concatenate([throat, tube, shell])
         mouth, lips = len(throat) + (BAG_RINGS + 2) * 2 * columns, len(throat) + len(tube)

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core_pipeline.faces.sculpt.character import Character
+from core_pipeline.faces.sculpt.lids import Lid
 from core_pipeline.faces.sculpt.piece import Piece, fan, grid, linear, mirror, paint
-from core_pipeline.faces.sculpt.sdf import Array
+from core_pipeline.faces.sculpt.sdf import Array, smoothstep
 
 AROUND = 28
+FINE = 36  # with fibres in the iris
 
 
-def eyes(character: Character) -> list[Piece]:
-    """Right and left eyeball and their glints."""
-    ball = _eyeball(character)
+def eyes(character: Character, *, lids: bool = True) -> list[Piece]:
+    """Right and left eyeball and their glints; shaded by the lids when the skin has any."""
+    ball = _eyeball(character, lids=lids)
     glint = _glint(character)
     # both eyes are lit by the same lamp: the left glint is moved across, not mirrored
     shift = -2 * np.array([character.eyes.centre[0], 0, 0])
@@ -40,30 +43,54 @@ def _cap(character: Character, angles: Array, radius: float, around: int = AROUN
     return points
 
 
-def _eyeball(character: Character) -> Piece:
+def _eyeball(character: Character, *, lids: bool) -> Piece:
     eyes = character.eyes
     iris, pupil = eyes.iris, eyes.pupil
-    angles = np.array(
-        [125, 100, 78, 60, 45, iris + 0.8, iris, iris - 3.5, (iris + pupil) / 2, pupil + 0.5, pupil, 0.6 * pupil]
-    )
-    white, colour = linear((0.97, 0.97, 0.96)), linear(eyes.iris_colour)
+    around = FINE if eyes.streaks else AROUND
+    white, colour = linear((0.94, 0.925, 0.91)), linear(eyes.iris_colour)
     black = linear((0.03, 0.02, 0.03))
-    tints = [white * 0.45, white * 0.6, white * 0.85, white, white, white, colour * 0.25, colour * 0.8, colour * 1.15]
-    tints += [colour * 0.75, black, black]
-    points = _cap(character, angles, eyes.radius)
-    colours = np.concatenate([np.repeat(tints, AROUND, axis=0), [black]])
-    # light falls in from above and lights the lower half of the iris; the upper lid shades the ball
+    # (degrees from where it looks, colour): the iris has a dark rim, and is palest half way in
+    rings = [(125, white * 0.45), (100, white * 0.6), (76, white * 0.95), (58, white), (44, white)]
+    rings += [(iris + 1.0, white * 0.92), (iris, colour * 0.22), (iris - 3.0, colour * 0.62)]
+    rings += [
+        ((iris + pupil) / 2 + 1.5, colour),
+        ((iris + pupil) / 2 - 2.5, colour * 1.25),
+        (pupil + 1.0, colour * 0.6),
+    ]
+    rings += [(pupil, black), (0.6 * pupil, black)]
+    angles = np.array([angle for angle, _ in rings])
+    points = _cap(character, angles, eyes.radius, around)
+    colours = np.concatenate([np.repeat([tint for _, tint in rings], around, axis=0), [black]])
+    # light falls in from above and lights the lower half of the iris
     height = (points[:, 1] - eyes.centre[1]) / eyes.radius
-    rings = np.repeat(angles, AROUND)
-    in_iris = np.append((rings < iris - 1) & (rings > pupil + 0.2), False)
+    ring = np.append(np.repeat(angles, around), 0.0)
+    in_iris = (ring < iris - 1) & (ring > pupil + 0.2)
     colours[in_iris] *= (1.15 - 1.5 * height[in_iris, None]).clip(0.55, 1.8)
-    around = np.append(np.tile(np.arange(AROUND), len(angles)), 0)
-    colours[in_iris] *= 1 + eyes.streaks * np.sin(around * 2.4 + 3 * np.sin(1.7 * around))[in_iris, None]
-    colours *= (1 - 0.45 * np.clip((height - 0.30) / 0.45, 0, 1))[:, None]
+    turn = 2 * np.pi * np.append(np.tile(np.arange(around), len(angles)), 0) / around
+    fibres = np.sin(15 * turn + 2 * np.sin(4 * turn)) + 0.6 * np.sin(9 * turn + 1)
+    colours[in_iris] *= 1 + eyes.streaks * fibres[in_iris, None]
+    if lids:
+        colours *= _under_lids(character, points, ring > iris + 0.5)
+    else:
+        colours *= (1 - 0.45 * np.clip((height - 0.30) / 0.45, 0, 1))[:, None]
     colours = np.column_stack([np.clip(colours, 0, 1), np.full(len(points), 1.0)])
-    last = (len(angles) - 1) * AROUND + np.arange(AROUND)
-    triangles = np.concatenate([grid(len(angles), AROUND, closed=True), fan(last, len(points) - 1)])
+    last = (len(angles) - 1) * around + np.arange(around)
+    triangles = np.concatenate([grid(len(angles), around, closed=True), fan(last, len(points) - 1)])
     return Piece("eye_right", points, triangles, colours)
+
+
+def _under_lids(character: Character, points: Array, white: NDArray[np.bool_]) -> Array:
+    """(n, 3) what the lids leave of the light; and red in the corners."""
+    lid = Lid(character.eyes)
+    across, place = lid.place(points)
+    ahead = (points - np.array(character.eyes.centre))[:, 2] > 0
+    shade = 0.55 * smoothstep(0.55, 1.05, place) + 0.22 * smoothstep(0.22, -0.1, place)
+    shade = shade + 0.25 * smoothstep(0.6, 1.05, np.abs(across))
+    free = (1 - np.where(ahead, shade, 0.3).clip(0, 0.75))[:, None] ** np.array([0.9, 1.05, 1.05])
+    red = np.where(ahead & white, 0.8 * smoothstep(-0.72, -0.98, across) + 0.3 * smoothstep(0.75, 1.0, across), 0.0)
+    red = red * smoothstep(1.2, 1.0, np.abs(across)) * smoothstep(-0.4, -0.1, place) * smoothstep(1.4, 1.1, place)
+    left: Array = free * (1 - red[:, None] * np.array([0.08, 0.55, 0.5]))
+    return left
 
 
 def _glint(character: Character) -> Piece:

@@ -46,7 +46,8 @@ def hair(character: Character, clay: Solid) -> Piece:
     light = np.concatenate([tint for _, _, tint in parts])[:, None]
     palette = character.palette
     tone = linear(palette.hair) + light * (linear(palette.hair_light) - linear(palette.hair))
-    colours = np.column_stack([np.clip(tone, 0, 1), np.full(len(positions), character.hair.gloss)])
+    # what lies deep down is dull
+    colours = np.column_stack([np.clip(tone, 0, 1), character.hair.gloss * smoothstep(-0.15, 0.25, light)])
     return Piece("hair", positions, np.concatenate(triangles), colours)
 
 

@@ -24,12 +24,19 @@ CROWDED = 0.9
 
 @dataclass(frozen=True, eq=False)
 class Layout:
-    """points (n, 2); triangles (m, 3); border (k,) round the lips, eyes: right and left loop (e,) each, rim (r,)."""
+    """points (n, 2); triangles (m, 3); border (k,) round the lips, eyes: right and left loop (e,) each."""
 
     points: Array
     triangles: Indices
     border: Indices
     eyes: tuple[Indices, Indices]
+
+    @property
+    def rim(self) -> Indices:
+        """(r,) vertices along the map's rim, in order, as a fan to its far side wants them."""
+        on_rim = np.flatnonzero(np.linalg.norm(self.points, axis=1) > RIM - 1e-6)
+        ordered: Indices = on_rim[np.argsort(np.arctan2(*self.points[on_rim].T))]
+        return ordered
 
     def neighbour_mean(self, values: Array) -> Array:
         """(n, c) at each point the mean of its neighbours' values (n, c)."""

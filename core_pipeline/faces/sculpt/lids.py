@@ -40,6 +40,15 @@ class Lid:
         )
         return p, height * np.sign(np.sin(angle)) * np.abs(np.sin(angle)) ** self.eyes.pointed + self.eyes.slant * p
 
+    def place(self, points: Array) -> tuple[Array, Array]:
+        """Where points (n, 3) near the ball's front lie in the opening: −1 nose … 1 temple, 0 lower … 1 upper edge."""
+        local = (points - self.centre) @ self.axes.T
+        unit = local / np.linalg.norm(local, axis=1, keepdims=True)
+        across = unit[:, 0] / self.eyes.half_width
+        angle = np.arccos(across.clip(-0.97, 0.97))
+        top, bottom = self._almond(angle)[1], self._almond(-angle)[1]
+        return across, (unit[:, 1] - bottom) / (top - bottom)
+
     def close(self, points: Array, share: Array) -> Array:
         """`points` (n, 3) with the lids shut; share (n,) 1 at the edge … 0 where the face stays still."""
         eyes = self.eyes

@@ -28,7 +28,7 @@ CLAY = (
     Blob((0.10, -0.79, 0.54), (0.18, 0.16, 0.20), 0.30, mirrored=True),  # chin
     Blob((0.24, 0.34, 0.63), (0.26, 0.065, 0.12), 0.13, mirrored=True),  # brow
     Blob((0.31, 0.16, 0.89), (0.17, 0.11, 0.16), 0.12, mirrored=True, carve=True),  # eye sockets
-    Blob((0, 0.07, 0.785), (0.062, 0.30, 0.115), 0.13),  # bridge of the nose
+    Blob((0, 0.07, 0.785), (0.062, 0.30, 0.115), 0.17),  # bridge of the nose
     Blob((0, -0.15, 0.93), (0.080, 0.070, 0.085), 0.11),  # tip of the nose
     Blob((0.105, -0.185, 0.84), (0.062, 0.056, 0.075), 0.06, mirrored=True),  # its wings
     Blob((0, -0.31, 0.88), (0.022, 0.06, 0.05), 0.05, carve=True),  # the groove above the lip
@@ -56,7 +56,7 @@ MAN = Character(
     rest_tongue=REST,
     mouth=Mouth(
         height=-0.48, half_width=0.27, smile=0.042, upper=0.038, lower=0.055, upper_depth=0.022, lower_depth=0.030,
-        lap=0.03, bow=1.0, rim=0.013, hinge=(0.0, -0.14, -0.08), bag=(0.33, 0.21, 0.56),
+        lap=0.03, bow=1.0, rim=0.013, taper=1.2, hinge=(0.0, -0.14, -0.08), bag=(0.33, 0.21, 0.56),
     ),
     teeth=Dentition(half_width=0.255, depth=0.37, behind_lips=0.08, edge=-0.022, upper_height=0.12, lower_height=0.105),
     eyes=Eyes(
@@ -72,11 +72,11 @@ MAN = Character(
     ears=Ears(centre=(0.745, 0.02, -0.06), size=(0.13, 0.20), stand_off=24),
     body=Body(neck=0.38, middle=-0.24, collar=-1.24),
     palette=Palette(
-        skin=(0.66, 0.45, 0.33), blush=(0.66, 0.32, 0.24), lip=(0.58, 0.33, 0.28), lid=(0.52, 0.33, 0.25),
+        skin=(0.66, 0.45, 0.33), blush=(0.66, 0.32, 0.24), lip=(0.55, 0.31, 0.26), lid=(0.52, 0.33, 0.25),
         inner_lip=(0.45, 0.18, 0.17), hair=(0.045, 0.035, 0.035), hair_light=(0.20, 0.15, 0.12), brow=(0.07, 0.05,
         0.045),
         lash=(0.05, 0.03, 0.03), shirt=(0.72, 0.68, 0.60), shirt_trim=(0.72, 0.68, 0.60), gums=(0.66, 0.32, 0.32),
-        stubble=0.38,
+        stubble=0.38, variation=0.6,
     ),
     camera=Camera(target=(0.0, -0.06, 0.0), distance=7.4, yaw=0.0, pitch=0.0, fov=24.0),
     middle=(0.0, -0.36, 0.0),

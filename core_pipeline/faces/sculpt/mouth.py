@@ -55,7 +55,7 @@ class Lips:
         self.meeting = np.stack([x, y, clay.front(x, y)], -1)
         bow = 1 + mouth.bow * (0.10 * np.exp(-(((np.abs(s) - 0.27) / 0.13) ** 2)) - 0.22 * np.exp(-((s / 0.12) ** 2)))
         full = np.where(self.upper, mouth.upper * bow, mouth.lower)
-        self.thickness = mouth.rim * (1 + 10 / 26 * (1 - self.middle) ** 8) + full * self.middle**1.05
+        self.thickness = mouth.rim * (1 + 10 / 26 * (1 - self.middle) ** 8) + full * self.middle**mouth.taper
         self.depth = 0.012 + np.where(self.upper, mouth.upper_depth, mouth.lower_depth) * self.middle**0.8
         along = np.stack([s * (1 - self.middle) ** 2.4, self.sin, 0 * s], -1)
         self.along = along / np.linalg.norm(along, axis=-1, keepdims=True)

@@ -88,6 +88,7 @@ class Skin:
             moved = points + 0.5 * (self.layout.neighbour_mean(points) - points)
             points = np.where(fixed[:, None], points, self.clay.project(moved, 2))
         points[flat[:, 0] == 0.0, 0] = 0.0
+        self._nape = self.clay.cast(self._middle[None], -self._axes[2:])
         return self._round_lids(points)
 
     def _round_lids(self, points: Array) -> Array:
@@ -98,11 +99,13 @@ class Skin:
         share = smoothstep(1.5, EYE_RINGS[0], self._ratio)[:, None]
         points = points + share * (ball - points)
         # the crease between lid and face is softer than the clay's
-        loose = (self._ratio > EYE_RINGS[0] + 0.01) & (self._ratio < 1.8)
-        pull = (0.5 * loose * (0.25 + 0.75 * smoothstep(0.0, 0.14, np.abs(points[:, 0]))))[:, None]
-        for _ in range(12):
+        loose = (self._ratio > EYE_RINGS[0] + 0.01) * smoothstep(2.3, 1.5, self._ratio)
+        x, y, _ = points.T
+        bridge = smoothstep(0.14, 0.0, np.abs(x)) * smoothstep(0.18, 0.02, y - self.lid.centre[1])
+        pull = (0.5 * loose * (1 - 0.75 * bridge))[:, None]
+        for _ in range(20):
             points = points + pull * (self.layout.neighbour_mean(points) - points)
-        depth = 0.06 * self.character.eyes.crease * self.character.eyes.radius * self._crease(points)
+        depth = 0.085 * self.character.eyes.crease * self.character.eyes.radius * self._crease(points)
         away = points - centre
         creased: Array = points - away * (depth / np.linalg.norm(away, axis=1))[:, None]
         return creased
@@ -113,7 +116,7 @@ class Skin:
         across = np.abs(np.abs(points[:, 0]) - self.lid.centre[0]) / self.character.eyes.radius
         # it follows a ring of the mesh; above the eye the rings lie farther apart
         ring = EYE_RINGS[0] + (1 + self.character.eyes.spread) * (CREASE - EYE_RINGS[0])
-        fold: Array = np.exp(-(((self._ratio - ring) / 0.24) ** 2)) * smoothstep(0.0, 0.05, height)
+        fold: Array = np.exp(-(((self._ratio - ring) / 0.18) ** 2)) * smoothstep(0.0, 0.05, height)
         return self._smoothed(fold * smoothstep(1.15, 0.7, across))
 
     def _smoothed(self, values: Array) -> Array:
@@ -123,7 +126,7 @@ class Skin:
         return values
 
     def _number(self) -> None:
-        """Vertex numbers of the whole: bag (deepest first), lips, the end of the throat, the face, rims of the lids."""
+        """Vertex numbers of the whole: bag (deepest first), lips, throat's end, face, its nape, rims of the lids."""
         columns = self.character.lip_columns
         rows = BAG_RINGS + RINGS
         inner = rows * columns + 1
@@ -135,7 +138,9 @@ class Skin:
         tube = grid(rows, columns, closed=True)[:, ::-1]
         throat = fan(np.arange(columns), inner - 1)
         face = self._face_number[self.layout.triangles]
-        rims = self._rim_triangles(inner + int(rest.sum()))
+        nape = inner + int(rest.sum())
+        face = np.concatenate([face, fan(self._face_number[self.layout.rim], nape)])
+        rims = self._rim_triangles(nape + 1)
         per_row = 2 * columns
         # the lattice's triangles come in two halves; sort them by row so that each part is one range
         by_row = np.argsort(np.tile(np.repeat(np.arange(rows - 1), columns), 2), kind="stable")
@@ -212,7 +217,7 @@ class Skin:
     def _whole(self, lips: Array, bag: Array, face: Array, *, closed: bool) -> Array:
         end = bag[-1].mean(0)
         inner = np.concatenate([bag[::-1].reshape(-1, 3), lips.reshape(-1, 3), end[None]])
-        return np.concatenate([inner, face[self._face_own], *self._rims(closed=closed)])
+        return np.concatenate([inner, face[self._face_own], self._nape, *self._rims(closed=closed)])
 
     def _rims(self, *, closed: bool) -> list[Array]:
         angle = 2 * np.pi * np.arange(COLUMNS) / COLUMNS
@@ -243,64 +248,73 @@ class Skin:
 
     def _brow_up(self, face: Array) -> Array:
         eyes = self.character.eyes
-        x, y, _ = face.T
+        x, y, z = face.T
         height = y - eyes.centre[1]
         share = np.exp(-(((np.abs(x) - eyes.centre[0]) / 0.36) ** 2) - ((height - 0.46) / 0.20) ** 2)
-        share *= smoothstep(1.0, 1.5, self._ratio)
+        share *= smoothstep(1.0, 1.5, self._ratio) * smoothstep(-0.2, 0.3, z)
         lifted = self.clay.project(face + (0, self.character.brows.lift, 0) * share[:, None])
         raised: Array = face + share[:, None] * (lifted - face)
         return raised
 
     def _colours(self, rest: Array) -> Array:
         palette, columns = self.character.palette, self.character.lip_columns
-        skin = linear(palette.skin)
-        colours = np.tile(np.append(skin, 0.35), (len(rest), 1))
+        colours = np.tile(np.append(linear(palette.skin), 0.35), (len(rest), 1))
         lattice = colours[: (BAG_RINGS + RINGS) * columns].reshape(BAG_RINGS + RINGS, columns, 4)
+        tones = self._tones()
         v, n = PROFILE[:, 0, None], PROFILE[:, 1, None]
-        outer = np.where(n > -0.5, smoothstep(1.12, 0.86, v), 1.0) * np.ones(columns)
+        outer = np.where(n > -0.5, smoothstep(1.16, 0.84, v), 1.0) * np.ones(columns)
         inner = smoothstep(-0.1, -1.3, n) * np.ones(columns)
         lip = lattice[BAG_RINGS:]
+        lip[..., :3] = tones[self.layout.border]
         lip[..., :3] += outer[..., None] * (linear(palette.lip) - lip[..., :3])
         lip[..., :3] += inner[..., None] * (linear(palette.inner_lip) - lip[..., :3])
         lip[..., 3] += (0.55 - 0.35) * outer
-        # lips are darker where they meet, and finely lined
-        lined = 0.04 * np.sin(2.7 * np.arange(columns)) + 0.28 * smoothstep(0.45, 0.0, v)
+        # lips are darker where they meet and towards the corners, the upper one in its own shade; and finely lined
+        lined = 0.04 * np.sin(2.7 * np.arange(columns)) + 0.30 * smoothstep(0.45, 0.0, v)
+        lined = lined + 0.25 * (1 - self.lips.middle) ** 3 + 0.12 * self.lips.upper
         lip[..., :3] *= 1 - palette.variation * (outer * lined)[..., None]
         depth = np.linspace(1, 0.1, BAG_RINGS)[:, None, None]
         lattice[:BAG_RINGS, :, :3] = linear(palette.throat) * depth + linear(palette.inner_lip) * 0.7 * (1 - depth)
         lattice[:BAG_RINGS, :, 3] = 0.2
-        colours[(BAG_RINGS + RINGS) * columns] = np.append(linear(palette.throat), 0.1)
-        self._paint_face(colours, rest)
+        first = (BAG_RINGS + RINGS) * columns
+        colours[first] = np.append(linear(palette.throat), 0.1)
+        last = first + 1 + int(self._face_own.sum())
+        colours[first + 1 : last, :3] = tones[self._face_own]
+        colours[last, :3] = tones[self.layout.rim].mean(0)
+        colours[last + 1 :, :3] = np.tile(self._rim_tones(tones), (2, 1))
         return colours
 
-    def _paint_face(self, colours: Array, rest: Array) -> None:
+    def _rim_tones(self, tones: Array) -> Array:
+        """(band · columns, 3) of a lid's rim: the colour of the lashes above, of the lid below."""
         palette = self.character.palette
-        first = (BAG_RINGS + RINGS) * self.character.lip_columns + 1
-        own = self.face[self._face_own]
-        last = first + len(own)
-        x, y, z = own.T
-        tone = colours[first:last, :3]
-        cheek = np.exp(-(((np.abs(x) - 0.50) / 0.19) ** 2) - ((y + 0.20) / 0.15) ** 2) * smoothstep(0.1, 0.4, z)
-        nose = np.exp(-(np.linalg.norm(own - np.array(self.character.nose), axis=1) ** 2) / 0.12**2)
-        warm = np.clip(0.40 * cheek + 0.30 * nose, 0, 1)[:, None]
-        tone += warm * (linear(palette.blush) - tone)
-        if palette.stubble:
-            tone += palette.stubble * beard(self.character, own)[:, None] * (linear(palette.brow) - tone)
-        tone += palette.variation * uneven(self.character, own, tone)
-        ratio = self._ratio[self._face_own]
-        lid = smoothstep(1.45, 1.1, ratio)[:, None]
-        tone += 0.7 * lid * (linear(palette.lid) - tone)
-        free = self._smoothed(self.clay.occlusion(self.face, self.clay.gradient(self.face)))[self._face_own]
-        tone *= (0.74 + 0.26 * smoothstep(0.15, 0.75, free))[:, None] ** np.array([0.8, 1.1, 1.2])
-        fold = 0.55 * self.character.eyes.crease * self._crease(self.face)[self._face_own]
-        tone *= (1 - fold)[:, None] ** np.array([0.6, 1.0, 1.1])
-        if self.character.nostrils is not None:
-            away = np.linalg.norm(np.abs(own * (1, 0, 0)) + own * (0, 1, 1) - np.array(self.character.nostrils), axis=1)
-            tone *= (1 - 0.85 * np.exp(-((away / 0.03) ** 2)))[:, None] ** np.array([0.75, 1.1, 1.1])
         angle = 2 * np.pi * np.arange(COLUMNS) / COLUMNS
         upper = smoothstep(-0.15, 0.25, np.sin(angle)) * self.character.eyes.lash
         edge = linear(palette.lid) * 0.85 + upper[:, None] * (linear(palette.lash) - linear(palette.lid) * 0.85)
-        outer = tone[self._face_number[self.layout.eyes[0]] - first]
+        outer = tones[self.layout.eyes[0]]
         outer = outer + 0.5 * (linear(palette.lid) - outer)
-        band = np.concatenate([outer, *[edge] * (len(BAND) - EDGE)])
-        colours[last:, :3] = np.tile(band, (2, 1))
+        return np.concatenate([outer, *[edge] * (len(BAND) - EDGE)])
+
+    def _tones(self) -> Array:
+        """(layout points, 3) the colours of the face."""
+        palette, points = self.character.palette, self.face
+        x, y, z = points.T
+        tone = np.tile(linear(palette.skin), (len(points), 1))
+        cheek = np.exp(-(((np.abs(x) - 0.50) / 0.19) ** 2) - ((y + 0.20) / 0.15) ** 2) * smoothstep(0.1, 0.4, z)
+        nose = np.exp(-(np.linalg.norm(points - np.array(self.character.nose), axis=1) ** 2) / 0.12**2)
+        warm = np.clip(0.40 * cheek + 0.30 * nose, 0, 1)[:, None]
+        tone += warm * (linear(palette.blush) - tone)
+        if palette.stubble:
+            tone += palette.stubble * beard(self.character, points)[:, None] * (linear(palette.brow) - tone)
+        tone += palette.variation * uneven(self.character, points, tone)
+        lid = smoothstep(1.45, 1.1, self._ratio)[:, None]
+        tone += 0.7 * lid * (linear(palette.lid) - tone)
+        free = self._smoothed(self.clay.occlusion(points, self.clay.gradient(points)))
+        tone *= (0.74 + 0.26 * smoothstep(0.15, 0.75, free))[:, None] ** np.array([0.8, 1.1, 1.2])
+        fold = 0.55 * self.character.eyes.crease * self._crease(points)
+        tone *= (1 - fold)[:, None] ** np.array([0.6, 1.0, 1.1])
+        if self.character.nostrils is not None:
+            away = np.linalg.norm(
+                np.abs(points * (1, 0, 0)) + points * (0, 1, 1) - np.array(self.character.nostrils), axis=1
+            )
+            tone *= (1 - 0.85 * np.exp(-((away / 0.03) ** 2)))[:, None] ** np.array([0.75, 1.1, 1.1])
+        return tone

@@ -8,11 +8,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from core_pipeline.faces.sculpt.raster import fragments, looking_along, nearest
 from core_pipeline.faces.sculpt.sdf import Array, smoothstep
 
 DIRECTIONS = 56
 SIZE = 150
-HALF = 2.0
 SOFT = (0.02, 0.07)  # buried this deep a vertex is half hidden … hidden
 
 
@@ -38,35 +38,12 @@ def _directions() -> Array:
 
 
 def _visible(positions: Array, triangles: NDArray[np.integer], direction: Array) -> Array:
-    right = np.cross((0.0, 1.0, 0.0), direction)
-    right /= np.linalg.norm(right)
-    points = positions @ np.stack([right, np.cross(direction, right), direction], -1)
-    points[:, :2] = (points[:, :2] / HALF + 1) * SIZE / 2
-    nearest = _depth_buffer(points[triangles])
+    points = looking_along(positions, direction, SIZE)
+    _, covered, near = fragments(points[triangles], SIZE)
     pixel = points[:, :2].astype(int).clip(0, SIZE - 1)
-    visible: Array = 1 - smoothstep(*SOFT, nearest[pixel[:, 1] * SIZE + pixel[:, 0]] - points[:, 2])
+    above = nearest(covered, near, SIZE)[pixel[:, 1] * SIZE + pixel[:, 0]]
+    visible: Array = 1 - smoothstep(*SOFT, above - points[:, 2])
     return visible
-
-
-def _depth_buffer(corners: Array) -> Array:
-    """(SIZE²,) the greatest depth over the middle of each pixel; corners (m, 3, 3) in pixels and depth."""
-    low = np.ceil(corners[..., :2].min(1) - 0.5).clip(0, SIZE).astype(int)
-    high = np.ceil(corners[..., :2].max(1) - 0.5).clip(0, SIZE).astype(int)
-    wide, tall = (high - low).T
-    which = np.repeat(np.arange(len(corners)), wide * tall)
-    step = np.arange(len(which)) - np.repeat(np.cumsum(wide * tall) - wide * tall, wide * tall)
-    column, row = low[which, 0] + step % wide[which], low[which, 1] + step // wide[which]
-    (ax, ay, az), (bx, by, bz), (cx, cy, cz) = (corners[which, i].T for i in range(3))
-    x, y = column + 0.5, row + 0.5
-    area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-    area = np.where(area == 0, np.nan, area)
-    v = ((x - ax) * (cy - ay) - (y - ay) * (cx - ax)) / area
-    w = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / area
-    inside = (v >= 0) & (w >= 0) & (v + w <= 1)
-    nearest = np.full(SIZE * SIZE, -9.0)
-    depth = az + v * (bz - az) + w * (cz - az)
-    np.maximum.at(nearest, (row * SIZE + column)[inside], depth[inside])
-    return nearest
 
 
 def _evened(values: Array, triangles: NDArray[np.integer]) -> Array:

@@ -10,7 +10,8 @@ from core_pipeline.faces.sculpt.character import Character, MouthPose
 from core_pipeline.faces.sculpt.piece import Piece, Triangles, grid, linear, turn
 from core_pipeline.faces.sculpt.sdf import Array, smoothstep
 
-PER_TOOTH = 4
+# where on a tooth its vertices lie: the gaps are narrow, its front is broad
+ON_TOOTH = np.array([0.0, 0.13, 0.87])
 # (across the row: −1 tongue side … 1 lip side; along the tooth: 0 at the gum, 1 at the edge)
 TOOTH = np.array([(0.95, -0.15), (1.06, 0.35), (0.98, 0.76), (0.68, 0.96), (0.10, 1.0), (-0.70, 0.75), (-0.9, -0.15)])
 GUM = np.array([(-0.2, -0.6), (0.8, -0.36), (1.15, 0.03), (0.9, 0.16), (-0.9, 0.16), (-1.4, -0.5)])
@@ -38,7 +39,7 @@ class _Row:
             [1.25 if upper else 0.8, 1.0 if upper else 0.85, 0.95, 1.0, 1.0, 1.3, 1.3, 1.3][: size.per_side]
         )
         ends = np.concatenate([[0], np.cumsum(widths)]) / widths.sum()
-        fine = np.concatenate([np.linspace(a, b, PER_TOOTH)[:-1] for a, b in pairwise(ends)])
+        fine = np.concatenate([a + (b - a) * ON_TOOTH for a, b in pairwise(ends)])
         half = np.append(fine, 1.0)
         self.along = np.concatenate([-half[::-1], half[1:]])
         inside = np.searchsorted(ends, np.abs(self.along).clip(0, 1 - 1e-9), side="right") - 1
@@ -72,7 +73,7 @@ class _Row:
             if is_tooth
             else 0.6 * smoothstep(0.3, 1.0, self.from_middle)[:, None]
         )
-        # (the lower ones more: where the jaw opens a little they would stand up beside the tongue)
+        # (the lower ones more, and they sink: where the jaw opens a little they would stand up beside the tongue)
         lower_back = 1 - (0.30 if self.upper else 0.55) * np.abs(self.along[:, None]) ** 1.5
         across = section[:, 0] * size.thickness
         down = section[:, 1]
@@ -84,7 +85,9 @@ class _Row:
             down = down + 0.10 * gap * (section[:, 1] > 0)
         sign = -1.0 if self.upper else 1.0
         edge = size.edge if self.upper else size.edge - 0.006
-        y = edge + sign * height * lower_back * (down - 1) + (0.0 if self.upper else -0.02 * (1 - lower_back))
+        y = edge + sign * height * lower_back * (down - 1)
+        if not self.upper:
+            y = y - 0.02 * (1 - lower_back) - size.sink * smoothstep(0.1, 0.55, np.abs(self.along[:, None]))
         back = size.behind_lips + (0 if self.upper else size.bite)
         x = arch[:, :1] + out[:, :1] * across
         z = arch[:, 1:] + out[:, 1:] * across - back - size.thickness
@@ -113,8 +116,10 @@ class _Row:
             inside = smoothstep(0.4, -0.6, np.tile(TOOTH[:, 0], len(self.along)))
             shade = shade * (1 - (0.35 + 0.4 * np.repeat(np.abs(self.along), len(TOOTH))) * inside)
             base = base * (1 - palette.variation * warm[:, None] * np.array([0.35, 0.75, 1.6]))
-            shade = shade * (1 - 0.22 * np.repeat(smoothstep(0.8, 1.0, self.from_middle), len(TOOTH)))
-        return np.column_stack([base * shade[:, None], np.full(len(points), 0.85 if is_tooth else 0.6)])
+            shade = shade * (1 - 0.34 * np.repeat(smoothstep(0.8, 1.0, self.from_middle), len(TOOTH)))
+        # what lies in the dark is warm, and does not shine
+        tone = base * shade[:, None] ** np.array([0.85, 1.05, 1.15])
+        return np.column_stack([tone, (0.85 if is_tooth else 0.6) * shade])
 
     def moved(self, points: Array, pose: MouthPose) -> Array:
         up, forward = pose.upper_teeth if self.upper else pose.lower_teeth

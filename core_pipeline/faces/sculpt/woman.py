@@ -15,7 +15,7 @@ from core_pipeline.faces.sculpt.character import (
     Palette,
     Sheet,
 )
-from core_pipeline.faces.sculpt.sdf import Blob
+from core_pipeline.faces.sculpt.sdf import Blob, Point
 
 CLAY = (
     Blob((0, 0.40, -0.12), (0.74, 0.74, 0.88), 0.1),  # cranium
@@ -33,12 +33,18 @@ CLAY = (
     Blob((0, -0.28, 0.86), (0.018, 0.06, 0.05), 0.05, carve=True),  # the groove above the lip
 )
 
+
+def _around(*right: tuple[Point, ...]) -> tuple[tuple[Point, ...], ...]:
+    """Strands from the right of the face round the back, the last of those given, to its left."""
+    return right + tuple(tuple((-x, y, z) for x, y, z in strand) for strand in right[-2::-1])
+
+
 HAIR = Hair(
     hairline=((0, 72), (30, 73), (55, 82), (75, 104), (100, 118), (140, 130), (180, 134)),
-    front=0.035, top=0.035, back=0.04, quiff=0.0, resolution=(40, 8),
+    front=0.035, top=0.035, back=0.04, quiff=0.0, resolution=(32, 7),
     sheets=(
-        Sheet(
-            guides=(
+        Sheet(  # from the parting down, all round the head
+            guides=_around(
                 ((-0.02, 0.90, 0.56), (0.34, 0.84, 0.57), (0.64, 0.42, 0.46), (0.62, -0.10, 0.42),
                  (0.70, -0.62, 0.36), (0.50, -1.10, 0.44)),
                 ((-0.02, 1.12, 0.24), (0.42, 1.04, 0.26), (0.80, 0.50, 0.16), (0.78, -0.15, 0.10),
@@ -47,10 +53,11 @@ HAIR = Hair(
                  (0.86, -0.80, -0.32), (0.70, -1.32, -0.18)),
                 ((-0.03, 1.06, -0.62), (0.32, 0.98, -0.74), (0.58, 0.45, -0.94), (0.60, -0.25, -0.90),
                  (0.60, -0.85, -0.78), (0.48, -1.36, -0.56)),
-                ((-0.06, 0.86, -0.92), (-0.04, 0.72, -1.02), (-0.04, 0.30, -1.12), (-0.04, -0.25, -1.08),
-                 (-0.04, -0.85, -0.96), (-0.04, -1.38, -0.74)),
+                ((0.00, 0.96, -0.80), (0.00, 0.76, -1.00), (0.00, 0.30, -1.14), (0.00, -0.25, -1.10),
+                 (0.00, -0.85, -0.98), (0.00, -1.38, -0.76)),
             ),
-            thickness=0.10, clumps=8, columns=35, rows=17, wave=0.045,
+            thickness=0.10, clumps=19, columns=58, rows=14, edge=0.05, relief=0.42, streaks=0.16,
+            wave=0.045, mirrored=False,
         ),
         Sheet(  # curtains of a fringe, from the parting to the temples
             guides=(
@@ -58,7 +65,7 @@ HAIR = Hair(
                 ((0.01, 0.95, 0.52), (0.25, 0.87, 0.64), (0.50, 0.60, 0.62), (0.645, 0.22, 0.51), (0.69, -0.16, 0.44)),
                 ((0.02, 1.01, 0.45), (0.30, 0.94, 0.53), (0.59, 0.68, 0.49), (0.70, 0.30, 0.41), (0.73, -0.06, 0.37)),
             ),
-            thickness=0.06, height=0.04, clumps=3, ragged=0.2, columns=11, rows=12,
+            thickness=0.06, height=0.04, clumps=3, ragged=0.17, columns=10, rows=10,
         ),
     ),
 )  # fmt: skip
@@ -72,7 +79,7 @@ WOMAN = Character(
     rest_tongue=REST,
     mouth=Mouth(
         height=-0.44, half_width=0.255, smile=0.052, upper=0.048, lower=0.067, upper_depth=0.025, lower_depth=0.032,
-        lap=0.03, bow=1.5, rim=0.015, hinge=(0.0, -0.12, -0.08), bag=(0.32, 0.20, 0.55),
+        lap=0.03, bow=1.5, rim=0.015, taper=1.25, hinge=(0.0, -0.12, -0.08), bag=(0.32, 0.20, 0.55),
     ),
     teeth=Dentition(half_width=0.245, depth=0.36, behind_lips=0.08, edge=-0.022, upper_height=0.115, lower_height=0.10),
     eyes=Eyes(
@@ -88,8 +95,8 @@ WOMAN = Character(
     ears=None,
     body=Body(neck=0.27, middle=-0.20, collar=-1.26),
     palette=Palette(
-        skin=(0.95, 0.76, 0.66), lip=(0.82, 0.44, 0.42), lid=(0.86, 0.60, 0.52), hair=(0.34, 0.13, 0.06),
-        hair_light=(0.62, 0.29, 0.13), brow=(0.38, 0.19, 0.11), lash=(0.10, 0.05, 0.04), shirt=(0.30, 0.34, 0.55),
+        skin=(0.95, 0.76, 0.66), lip=(0.82, 0.44, 0.42), lid=(0.86, 0.60, 0.52), hair=(0.25, 0.085, 0.04),
+        hair_light=(0.52, 0.20, 0.085), brow=(0.38, 0.19, 0.11), lash=(0.10, 0.05, 0.04), shirt=(0.30, 0.34, 0.55),
         shirt_trim=(0.30, 0.34, 0.55),
     ),
     camera=Camera(target=(0.0, -0.05, 0.0), distance=6.9, yaw=0.0, pitch=0.0, fov=24.0),
