@@ -59,6 +59,7 @@ class _Plan:
     primitive: Json
     names: list[str]
     title: str
+    named: bool
 
 
 def _planned(gltf: GltfFile, scene: Scene) -> list[_Plan]:
@@ -69,6 +70,11 @@ def _planned(gltf: GltfFile, scene: Scene) -> list[_Plan]:
         if len(plans) > MAX_PARTS:
             raise gltf.fail(f"it has more than {MAX_PARTS:,} parts; export the head alone.")
     plans = _without_scaffold(gltf, plans)
+    unnamed = list(dict.fromkeys(plan.title for plan in plans if not plan.named))
+    if unnamed:
+        one = len(unnamed) == 1
+        whose = f"Mesh “{unnamed[0]}” does not name its" if one else f"{len(unnamed)} meshes do not name their"
+        gltf.note(f"{whose} shapes (targetNames is missing): they are numbered.")
     vertices, corners, shapes = 0, 0, set()
     for plan in plans:
         attributes = gltf.part(plan.primitive, "attributes")
@@ -124,27 +130,36 @@ def _primitives(gltf: GltfFile, node: Json, matrix: Matrix) -> list[_Plan]:
     counts = {len(gltf.parts(primitive, "targets")) for primitive in drawn}
     if len(counts) > 1:
         raise gltf.fail(f"the parts of mesh “{title}” have different numbers of morph targets {sorted(counts)}.")
-    names = _names(gltf, mesh, drawn, title) if drawn else []
+    names, named = _names(gltf, mesh, drawn, title) if drawn else ([], True)
     plans = []
     for number, primitive in enumerate(drawn):
         own = primitive.get("extras")
         part = own.get("part") if isinstance(own, dict) else None
-        part = str(part or (f"{title} {number + 1}" if number else title))
-        plans.append(_Plan(node, matrix, primitive, names, part))
+        part = str(part or _called(gltf, primitive, f"{title} {number + 1}" if number else title))
+        plans.append(_Plan(node, matrix, primitive, names, part, named))
     return plans
 
 
-def _names(gltf: GltfFile, mesh: Json, drawn: list[Json], title: str) -> list[str]:
-    """One name for each morph target of a mesh, no two alike."""
+def _called(gltf: GltfFile, primitive: Json, title: str) -> str:
+    """The name of a part; a tongue's begins with that, whatever the mesh is called: a cut-away leaves it whole."""
+    material = gltf.item("materials", primitive["material"]) if "material" in primitive else {}
+    for name in (str(material.get("name", "")), title):
+        plain = name.casefold()
+        if "tongue" in plain and not any(other in plain for other in ("teeth", "tooth", "gum", "mouth")):
+            return title if title.casefold().startswith("tongue") else f"tongue ({title})"
+    return title
+
+
+def _names(gltf: GltfFile, mesh: Json, drawn: list[Json], title: str) -> tuple[list[str], bool]:
+    """One name for each morph target of a mesh, no two alike, and whether they are the file's."""
     targets = gltf.parts(drawn[0], "targets")
     names: object = None
     for holder in (mesh, drawn[0]):
         extras = holder.get("extras")
         names = names or (extras.get("targetNames") if isinstance(extras, dict) else None)
+    named = isinstance(names, list) or not targets
     if not isinstance(names, list):
         names = [f"target {number}" for number in range(len(targets))]
-        if targets:
-            gltf.note(f"Mesh “{title}” does not name its shapes (targetNames is missing): they are numbered.")
     if len(names) != len(targets):
         raise gltf.fail(
             f"mesh “{title}” has {len(targets)} morph targets but names {len(names)}; export the file again."
@@ -157,7 +172,7 @@ def _names(gltf: GltfFile, mesh: Json, drawn: list[Json], title: str) -> list[st
         if free != name:
             gltf.note(f"Mesh “{title}” has several shapes named “{shown(name)}”: the later ones are numbered.")
         once[free] = None
-    return list(once)
+    return list(once), named
 
 
 def _expressions(gltf: GltfFile, plans: list[_Plan], shapes: tuple[str, ...]) -> dict[str, Mapping[str, float]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -15,13 +16,15 @@ from core_pipeline.faces.framing import head_camera, head_height, turned_upright
 from core_pipeline.faces.glb import read_rig
 from core_pipeline.faces.mapping_json import load_mapping, mapping_path
 from core_pipeline.faces.obj_folder import read_obj_folder
-from core_pipeline.faces.retarget import OWN_NAMES, Mix, Preset, Retarget, best
+from core_pipeline.faces.retarget import OWN_NAMES, Mix, Preset, Retarget, best, normalised
 from core_pipeline.faces.steps import Report, silent
 from core_pipeline.files.atomic import reason
 from core_pipeline.files.json_text import shown
 from core_pipeline.poses import FACEFX
 
 _NAMED = 4
+#: Shapes that are there to move nothing: the silence among visemes, the neutral among expressions.
+_AT_REST = re.compile(r"(^|viseme|v)sil(ence)?$|neutral$|^basis$|^rest$")
 
 Cancelled = Callable[[], bool]
 Read = tuple[Face, tuple[str, ...]]
@@ -134,7 +137,11 @@ def _health(face: Face) -> tuple[str, ...]:
     """What is odd about the shapes, though they can be played."""
     largest = [float(np.sqrt(np.einsum("ij,ij->i", delta, delta).max(initial=0))) for delta in face.deltas]
     head = head_height(face)
-    still = [shape for shape, motion in zip(face.shapes, largest, strict=True) if motion == 0]
+    still = [
+        shape
+        for shape, motion in zip(face.shapes, largest, strict=True)
+        if motion == 0 and not _AT_REST.search(normalised(shape))
+    ]
     wild = [shape for shape, motion in zip(face.shapes, largest, strict=True) if motion > head]
     notes = []
     if still:

@@ -245,6 +245,23 @@ def test_a_mesh_without_a_name_is_called_as_what_it_hangs_on(tmp_path):
     assert list(read(tmp_path, gltf).parts) == ["Head"]
 
 
+@pytest.mark.parametrize(
+    ("node", "material", "part"),
+    [
+        ("CC_Base_Tongue", "Std_Skin", "tongue (CC_Base_Tongue)"),
+        ("Teeth", "Std_Tongue", "tongue (Teeth)"),
+        ("tongue", "tongue", "tongue"),
+        ("Head", "teeth_tongue", "Head"),
+    ],
+)
+def test_a_tongue_is_called_so(tmp_path, node, material, part):
+    gltf = tetrahedron()
+    gltf.json["nodes"][0]["name"] = node
+    gltf.json["materials"] = [{"name": material}]
+    gltf.primitive()["material"] = 0
+    assert list(read(tmp_path, gltf).parts) == [part]
+
+
 @pytest.mark.parametrize("where", ["node", "mesh", "material"])
 def test_what_only_tools_need_is_left_out(tmp_path, where):
     gltf = tetrahedron()

@@ -213,6 +213,9 @@ def test_missing_and_doubled_names_are_told(tmp_path):
     del gltf.mesh()["extras"]
     assert read(tmp_path, gltf).shapes == ("target 0", "target 1", "target 2")
     assert any("targetNames is missing" in note for note in notes(tmp_path, gltf))
+    gltf.add_mesh(gltf.points(), [0, 1, 2], {"a": gltf.points(), "b": gltf.points(), "c": gltf.points()}, "other")
+    del gltf.json["meshes"][1]["extras"]
+    assert notes(tmp_path, gltf) == ("2 meshes do not name their shapes (targetNames is missing): they are numbered.",)
     assert notes(tmp_path, tetrahedron()) == ()
 
 

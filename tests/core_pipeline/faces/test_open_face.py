@@ -151,6 +151,17 @@ def test_shapes_and_poses_that_move_nothing(tmp_path):
     assert "2 poses move nothing: wide, tTeeth." in found.notes
 
 
+@pytest.mark.parametrize("name", ["viseme_sil", "vrc.v_sil", "sil", "Fcl_ALL_Neutral", "Basis", "head_neutral"])
+def test_what_is_there_to_move_nothing_is_not_odd(tmp_path, name):
+    face = replace(
+        ARKIT,
+        shapes=(*ARKIT.shapes, name),
+        deltas=np.concatenate([ARKIT.deltas, np.zeros((1, len(ARKIT.positions), 3), np.float32)]),
+        normal_deltas=np.concatenate([ARKIT.normal_deltas, np.zeros((1, len(ARKIT.positions), 3), np.float32)]),
+    )
+    assert not any("nothing" in note for note in opened(as_glb(face, tmp_path / "head.glb")).notes)
+
+
 def test_motion_beyond_the_head(tmp_path):
     deltas = ARKIT.deltas.copy()
     deltas[ARKIT.shapes.index("mouthLeft"), 40] = (0, 0, 30)
