@@ -19,6 +19,7 @@ from core_pipeline.faces.framing import frame
 from core_pipeline.faces.gltf_colours import Colours
 from core_pipeline.faces.gltf_file import GltfFile, Json
 from core_pipeline.faces.gltf_scene import Matrix, Scene
+from core_pipeline.faces.gltf_weights import Expressions, all_of_them, set_shapes, with_shapes
 from core_pipeline.faces.limits import LARGEST, MAX_MORPH_BYTES, MAX_TRIANGLES, MAX_VERTICES
 from core_pipeline.faces.normals import VertexNormals, seam_groups, shape_normals
 from core_pipeline.faces.scaffold import LEFT_OUT, is_scaffold
@@ -35,9 +36,12 @@ def read_glb(path: str | Path) -> Face:
     return read_rig(Path(path))[0]
 
 
-def read_rig(path: Path, report: Report = silent) -> tuple[Face, list[Path], tuple[str, ...]]:
+def read_rig(
+    path: Path, report: Report = silent, expressions_among: Expressions = all_of_them
+) -> tuple[Face, list[Path], tuple[str, ...]]:
     """The face in a file, all the files it was read from, and what is odd about it.
 
+    Shapes that the file has set and `expressions_among` all its shapes does not name are part of the neutral face.
     `report` is told after every shape. UserError as for `read_glb`.
     """
     gltf = GltfFile(path)
@@ -46,7 +50,7 @@ def read_rig(path: Path, report: Report = silent) -> tuple[Face, list[Path], tup
     step = Steps(sum(1 + 2 * len(plan.names) for plan in planned), report)
     patches = [_patch(gltf, scene, plan, step) for plan in planned]
     _colour(colours, patches, planned)
-    face = _join(gltf, patches, step)
+    face = _join(gltf, patches, _person(gltf, planned, expressions_among), step)
     return replace(face, expressions=_expressions(gltf, planned, face.shapes)), gltf.files, tuple(gltf.notes)
 
 
@@ -272,7 +276,14 @@ def _triangles(gltf: GltfFile, primitive: Json, count: int, title: str) -> NDArr
     return corners.astype(np.uint32)
 
 
-def _join(gltf: GltfFile, patches: list[_Patch], step: Steps) -> Face:
+def _person(gltf: GltfFile, plans: list[_Plan], expressions_among: Expressions) -> dict[str, float]:
+    """What of the shapes is of the person: how much of it stands in the neutral face."""
+    names = tuple(dict.fromkeys(name for plan in plans for name in plan.names))
+    spoken = {shape for mix in _expressions(gltf, plans, names).values() for shape in mix}
+    return set_shapes(gltf, [(plan.node, plan.names) for plan in plans], {*expressions_among(names), *spoken})
+
+
+def _join(gltf: GltfFile, patches: list[_Patch], person: Mapping[str, float], step: Steps) -> Face:
     sizes = [len(patch.positions) for patch in patches]
     shapes = tuple(dict.fromkeys(name for patch in patches for name in patch.deltas))
     if not shapes:
@@ -292,6 +303,7 @@ def _join(gltf: GltfFile, patches: list[_Patch], step: Steps) -> Face:
         for name, delta in patch.deltas.items():
             deltas[shapes.index(name), start : start + len(delta)] = delta
     stored = np.concatenate([patch.normals for patch in patches])
+    positions, stored = with_shapes(person, shapes, deltas, positions, triangles, stored)
     normals, normal_deltas = shape_normals(positions, triangles, deltas, stored, step)
     return Face(
         name=gltf.path.stem,

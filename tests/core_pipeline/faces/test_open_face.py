@@ -16,6 +16,7 @@ from core_pipeline.faces.open_face import open_face
 from core_pipeline.faces.retarget import OWN_NAMES
 from core_pipeline.faces.view import View
 from core_pipeline.poses import FACEFX
+from tests.helpers.gltf import tetrahedron
 from tests.helpers.rigs import BACKWARDS, NAMES, PRESETS, Z_UP, as_glb, as_objs, head, moved
 
 ARKIT = head(["jawOpen", *(name for name in NAMES["arkit52"] if name != "jawOpen")])
@@ -160,6 +161,18 @@ def test_what_is_there_to_move_nothing_is_not_odd(tmp_path, name):
         normal_deltas=np.concatenate([ARKIT.normal_deltas, np.zeros((1, len(ARKIT.positions), 3), np.float32)]),
     )
     assert not any("nothing" in note for note in opened(as_glb(face, tmp_path / "head.glb")).notes)
+
+
+def test_shapes_no_convention_knows_are_of_the_person_when_the_file_sets_them(tmp_path):
+    gltf = tetrahedron()
+    gltf.primitive()["targets"] *= 2
+    gltf.mesh()["extras"]["targetNames"] = ["jawOpen", "age"]
+    gltf.mesh()["weights"] = [0.5, 1]
+    (tmp_path / "head.glb").write_bytes(gltf.glb())
+    found = opened(tmp_path / "head.glb")
+    assert found.face.positions[:, 1].sum() == pytest.approx(2), "the lifted corner stays up"
+    assert any(note.endswith("part of the neutral face: age.") for note in found.notes)
+    assert any(note.endswith("left out of the neutral face: jawOpen.") for note in found.notes)
 
 
 def test_motion_beyond_the_head(tmp_path):
