@@ -161,6 +161,8 @@ def _names(gltf: GltfFile, mesh: Json, drawn: list[Json], title: str) -> tuple[l
     for holder in (mesh, drawn[0]):
         extras = holder.get("extras")
         names = names or (extras.get("targetNames") if isinstance(extras, dict) else None)
+    if not isinstance(names, list):
+        names = _scattered_names(gltf, targets)
     named = isinstance(names, list) or not targets
     if not isinstance(names, list):
         names = [f"target {number}" for number in range(len(targets))]
@@ -177,6 +179,19 @@ def _names(gltf: GltfFile, mesh: Json, drawn: list[Json], title: str) -> tuple[l
             gltf.note(f"Mesh “{title}” has several shapes named “{shown(name)}”: the later ones are numbered.")
         once[free] = None
     return list(once), named
+
+
+def _scattered_names(gltf: GltfFile, targets: list[Json]) -> list[str] | None:
+    """Names that each target has by itself, as older avatars have them, or its accessor; None where any has none."""
+    held = [target.get("extras", target.get("extra")) for target in targets]
+    names = [holder.get("name") if isinstance(holder, dict) else None for holder in held]
+    if not all(names):
+        names = [
+            gltf.item("accessors", target["POSITION"]).get("name") if "POSITION" in target else None
+            for target in targets
+        ]
+    told = [str(name) for name in names if name]
+    return told if len(set(told)) == len(targets) else None
 
 
 def _expressions(gltf: GltfFile, plans: list[_Plan], shapes: tuple[str, ...]) -> dict[str, Mapping[str, float]]:
@@ -237,6 +252,8 @@ def _colour(colours: Colours, patches: list[_Patch], plans: list[_Plan]) -> None
 def _same_counts(gltf: GltfFile, title: str, count: int, attributes: Json, targets: list[Json]) -> None:
     for what in (attributes, *targets):
         for key, index in what.items():
+            if key in ("extra", "extras"):  # not in the standard; older avatars name their targets there
+                continue
             if gltf.count(index) != count:
                 raise gltf.fail(f"mesh “{title}” has {count:,} vertices but {gltf.count(index):,} values of {key}.")
 

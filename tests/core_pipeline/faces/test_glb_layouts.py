@@ -204,6 +204,24 @@ def test_names_on_the_primitive(tmp_path):
     assert read(tmp_path, gltf).shapes == ("up",)
 
 
+@pytest.mark.parametrize("key", ["extra", "extras"])
+def test_names_on_the_targets_themselves(tmp_path, key):
+    gltf = tetrahedron()
+    del gltf.mesh()["extras"]
+    gltf.primitive()["targets"] = [gltf.primitive()["targets"][0] | {key: {"name": name}} for name in ("A", "O")]
+    assert read(tmp_path, gltf).shapes == ("A", "O")
+    assert notes(tmp_path, gltf) == ()
+    del gltf.primitive()["targets"][1][key]["name"]
+    assert read(tmp_path, gltf).shapes == ("target 0", "target 1")
+
+
+def test_names_on_their_accessors(tmp_path):
+    gltf = tetrahedron()
+    del gltf.mesh()["extras"]
+    gltf.json["accessors"][gltf.primitive()["targets"][0]["POSITION"]]["name"] = "jawOpen"
+    assert read(tmp_path, gltf).shapes == ("jawOpen",)
+
+
 def test_missing_and_doubled_names_are_told(tmp_path):
     gltf = tetrahedron()
     gltf.primitive()["targets"] *= 3
