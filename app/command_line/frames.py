@@ -55,7 +55,7 @@ class GroupFrames:
         for number, ((face, matrix), view, row) in enumerate(zip(self._cast, self.views, weights, strict=True)):
             amounts = row.astype(np.float32) @ matrix
             if life is not None:
-                idle.enliven(amounts, face.shapes, life + number * idle.APART, speaking=True)
+                idle.enliven(amounts, face, life + number * idle.APART, speaking=True)
             seen = view if turned is None else view.turned(360.0 * turned / TURN_SECONDS)
             figures.append(Figure(face, amounts, seen))
         return self._renderer.draw(figures, self.size, look=self.look)

@@ -157,7 +157,7 @@ class Cast:
         for number, (part, (poses, weights)) in enumerate(zip(self._parts, spoken, strict=True)):
             amounts = part.amounts(poses, weights)
             if life is not None:
-                idle.enliven(amounts, part.mesh.shapes, life + number * idle.APART, talks)
+                idle.enliven(amounts, part.mesh, life + number * idle.APART, talks)
             figures.append(Figure(part.mesh, amounts, part.view))
         return figures
 

@@ -15,6 +15,8 @@ _FOV = 24.0
 _AROUND = 0.75
 #: Vertices that move less than this part of the usual motion do not tell where the face is, nor do wild shapes.
 _MOVES, _WILD = 0.05, 10.0
+#: Nor do shapes that move so many times as wide a part of the mesh as most do.
+_BROAD = 4.0
 _LONGER = 1.1
 #: Parts below which a picture of a head may end, and how much of them it shows, in heights of the head.
 _SHOULDERS = ("shirt", "collar", "neck")
@@ -137,15 +139,23 @@ def _camera(low: NDArray[np.float64], high: NDArray[np.float64]) -> Camera:
 
 
 def _moving(face: Face) -> NDArray[np.bool_]:
-    """(n,) whether a vertex moves noticeably in some shape, of those that move about as far as most do."""
+    """(n,) whether a vertex moves noticeably in some shape, of those that move about as far as most do.
+
+    Shapes of the whole body, such as its age or build, tell nothing of where the face is.
+    """
     squares = [np.einsum("ij,ij->i", delta, delta) for delta in face.deltas]
     reach = np.sqrt([square.max(initial=0) for square in squares])
     usual = float(np.median(reach[reach > 0])) if reach.any() else 0.0
-    moved = np.zeros(len(face.positions), bool)
-    for square, far in zip(squares, reach, strict=True):
-        if 0 < far <= _WILD * usual:
-            moved |= square > (_MOVES * usual) ** 2
-    return moved
+    moved = [
+        square > (_MOVES * usual) ** 2
+        for square, far in zip(squares, reach, strict=True)
+        if _MOVES * usual < far <= _WILD * usual
+    ]
+    wide = [float(np.ptp(face.positions[mine], axis=0).max()) for mine in moved]
+    most = _BROAD * float(np.median(wide)) if any(wide) else 0.0
+    local = [mine for mine, width in zip(moved, wide, strict=True) if width <= most or not most]
+    everywhere: NDArray[np.bool_] = np.any(local, axis=0) if local else np.zeros(len(face.positions), bool)
+    return everywhere
 
 
 def _lies(face: Face, moved: NDArray[np.bool_]) -> bool:

@@ -18,6 +18,7 @@ from core_pipeline.faces.framing import frame
 from core_pipeline.faces.gltf_file import GltfFile, Json
 from core_pipeline.faces.gltf_materials import Materials
 from core_pipeline.faces.gltf_scene import Matrix, Scene
+from core_pipeline.faces.gltf_weights import Expressions, all_of_them, set_shapes, with_shapes
 from core_pipeline.faces.limits import LARGEST, MAX_MORPH_BYTES, MAX_TRIANGLES, MAX_VERTICES
 from core_pipeline.faces.normals import shape_normals
 from core_pipeline.faces.scaffold import LEFT_OUT, is_scaffold
@@ -35,9 +36,12 @@ def read_glb(path: str | Path) -> Face:
     return read_rig(Path(path))[0]
 
 
-def read_rig(path: Path, report: Report = silent) -> tuple[Face, list[Path], tuple[str, ...]]:
+def read_rig(
+    path: Path, report: Report = silent, expressions_among: Expressions = all_of_them
+) -> tuple[Face, list[Path], tuple[str, ...]]:
     """The face in a file, all the files it was read from, and what is odd about it.
 
+    Shapes that the file has set and `expressions_among` all its shapes does not name are part of the neutral face.
     `report` is told after every part and shape. UserError as for `read_glb`.
     """
     gltf = GltfFile(path)
@@ -45,7 +49,8 @@ def read_rig(path: Path, report: Report = silent) -> tuple[Face, list[Path], tup
     planned = _planned(gltf, scene)
     step = Steps(sum(2 + 2 * len(plan.names) for plan in planned), report)
     patches = [_patch(gltf, scene, plan, step) for plan in planned]
-    face = _join(gltf, patches, _dress(gltf, patches, planned, step), step)
+    textures = _dress(gltf, patches, planned, step)
+    face = _join(gltf, patches, textures, _person(gltf, planned, expressions_among), step)
     return replace(face, expressions=_expressions(gltf, planned, face.shapes)), gltf.files, tuple(gltf.notes)
 
 
@@ -58,6 +63,7 @@ class _Plan:
     primitive: Json
     names: list[str]
     title: str
+    named: bool
 
 
 def _planned(gltf: GltfFile, scene: Scene) -> list[_Plan]:
@@ -68,6 +74,11 @@ def _planned(gltf: GltfFile, scene: Scene) -> list[_Plan]:
         if len(plans) > MAX_PARTS:
             raise gltf.fail(f"it has more than {MAX_PARTS:,} parts; export the head alone.")
     plans = _without_scaffold(gltf, plans)
+    unnamed = list(dict.fromkeys(plan.title for plan in plans if not plan.named))
+    if unnamed:
+        one = len(unnamed) == 1
+        whose = f"Mesh “{unnamed[0]}” does not name its" if one else f"{len(unnamed)} meshes do not name their"
+        gltf.note(f"{whose} shapes (targetNames is missing): they are numbered.")
     vertices, corners, shapes = 0, 0, set()
     for plan in plans:
         attributes = gltf.part(plan.primitive, "attributes")
@@ -125,27 +136,38 @@ def _primitives(gltf: GltfFile, node: Json, matrix: Matrix) -> list[_Plan]:
     counts = {len(gltf.parts(primitive, "targets")) for primitive in drawn}
     if len(counts) > 1:
         raise gltf.fail(f"the parts of mesh “{title}” have different numbers of morph targets {sorted(counts)}.")
-    names = _names(gltf, mesh, drawn, title) if drawn else []
+    names, named = _names(gltf, mesh, drawn, title) if drawn else ([], True)
     plans = []
     for number, primitive in enumerate(drawn):
         own = primitive.get("extras")
         part = own.get("part") if isinstance(own, dict) else None
-        part = str(part or (f"{title} {number + 1}" if number else title))
-        plans.append(_Plan(node, matrix, primitive, names, part))
+        part = str(part or _called(gltf, primitive, f"{title} {number + 1}" if number else title))
+        plans.append(_Plan(node, matrix, primitive, names, part, named))
     return plans
 
 
-def _names(gltf: GltfFile, mesh: Json, drawn: list[Json], title: str) -> list[str]:
-    """One name for each morph target of a mesh, no two alike."""
+def _called(gltf: GltfFile, primitive: Json, title: str) -> str:
+    """The name of a part; a tongue's begins with that, whatever the mesh is called: a cut-away leaves it whole."""
+    material = gltf.item("materials", primitive["material"]) if "material" in primitive else {}
+    for name in (str(material.get("name", "")), title):
+        plain = name.casefold()
+        if "tongue" in plain and not any(other in plain for other in ("teeth", "tooth", "gum", "mouth")):
+            return title if title.casefold().startswith("tongue") else f"tongue ({title})"
+    return title
+
+
+def _names(gltf: GltfFile, mesh: Json, drawn: list[Json], title: str) -> tuple[list[str], bool]:
+    """One name for each morph target of a mesh, no two alike, and whether they are the file's."""
     targets = gltf.parts(drawn[0], "targets")
     names: object = None
     for holder in (mesh, drawn[0]):
         extras = holder.get("extras")
         names = names or (extras.get("targetNames") if isinstance(extras, dict) else None)
     if not isinstance(names, list):
+        names = _scattered_names(gltf, targets)
+    named = isinstance(names, list) or not targets
+    if not isinstance(names, list):
         names = [f"target {number}" for number in range(len(targets))]
-        if targets:
-            gltf.note(f"Mesh “{title}” does not name its shapes (targetNames is missing): they are numbered.")
     if len(names) != len(targets):
         raise gltf.fail(
             f"mesh “{title}” has {len(targets)} morph targets but names {len(names)}; export the file again."
@@ -158,7 +180,20 @@ def _names(gltf: GltfFile, mesh: Json, drawn: list[Json], title: str) -> list[st
         if free != name:
             gltf.note(f"Mesh “{title}” has several shapes named “{shown(name)}”: the later ones are numbered.")
         once[free] = None
-    return list(once)
+    return list(once), named
+
+
+def _scattered_names(gltf: GltfFile, targets: list[Json]) -> list[str] | None:
+    """Names that each target has by itself, as older avatars have them, or its accessor; None where any has none."""
+    held = [target.get("extras", target.get("extra")) for target in targets]
+    names = [holder.get("name") if isinstance(holder, dict) else None for holder in held]
+    if not all(names):
+        names = [
+            gltf.item("accessors", target["POSITION"]).get("name") if "POSITION" in target else None
+            for target in targets
+        ]
+    told = [str(name) for name in names if name]
+    return told if len(set(told)) == len(targets) else None
 
 
 def _expressions(gltf: GltfFile, plans: list[_Plan], shapes: tuple[str, ...]) -> dict[str, Mapping[str, float]]:
@@ -208,6 +243,8 @@ def _dress(gltf: GltfFile, patches: list[_Patch], plans: list[_Plan], step: Step
 def _same_counts(gltf: GltfFile, title: str, count: int, attributes: Json, targets: list[Json]) -> None:
     for what in (attributes, *targets):
         for key, index in what.items():
+            if key in ("extra", "extras"):  # not in the standard; older avatars name their targets there
+                continue
             if gltf.count(index) != count:
                 raise gltf.fail(f"mesh “{title}” has {count:,} vertices but {gltf.count(index):,} values of {key}.")
 
@@ -247,7 +284,16 @@ def _triangles(gltf: GltfFile, primitive: Json, count: int, title: str) -> NDArr
     return corners.astype(np.uint32)
 
 
-def _join(gltf: GltfFile, patches: list[_Patch], textures: tuple[Texture, ...], step: Steps) -> Face:
+def _person(gltf: GltfFile, plans: list[_Plan], expressions_among: Expressions) -> dict[str, float]:
+    """What of the shapes is of the person: how much of it stands in the neutral face."""
+    names = tuple(dict.fromkeys(name for plan in plans for name in plan.names))
+    spoken = {shape for mix in _expressions(gltf, plans, names).values() for shape in mix}
+    return set_shapes(gltf, [(plan.node, plan.names) for plan in plans], {*expressions_among(names), *spoken})
+
+
+def _join(
+    gltf: GltfFile, patches: list[_Patch], textures: tuple[Texture, ...], person: Mapping[str, float], step: Steps
+) -> Face:
     sizes = [len(patch.positions) for patch in patches]
     shapes = tuple(dict.fromkeys(name for patch in patches for name in patch.deltas))
     if not shapes:
@@ -268,6 +314,7 @@ def _join(gltf: GltfFile, patches: list[_Patch], textures: tuple[Texture, ...], 
             deltas[shapes.index(name), start : start + len(delta)] = delta
     parts = _parts(patches)
     stored = np.concatenate([patch.normals for patch in patches])
+    positions, stored = with_shapes(person, shapes, deltas, positions, triangles, stored)
     normals, normal_deltas = shape_normals(positions, triangles, deltas, stored, step)
     return Face(
         name=gltf.path.stem,

@@ -7,9 +7,11 @@ clip rendered twice is the same clip.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from functools import lru_cache
 
-from .face import Floats
+from .face import Face, Floats
+from .retarget import Preset, Rig
 
 #: Seconds by which the lives of two faces in one picture are apart, so that they do not blink as one.
 APART = 1000.9
@@ -20,13 +22,32 @@ FALL, SHUT, RISE = 0.07, 0.03, 0.15
 LENGTH = FALL + SHUT + RISE
 _BROW = 0.14
 
+#: What shuts both eyes, and what lifts the brows, by one convention each; the first that a rig has is taken.
+_LIDS = (
+    ("blink",),
+    ("eyeBlinkLeft", "eyeBlinkRight"),
+    ("blinkLeft", "blinkRight"),
+    ("Eyes_Blink",),
+    ("eyesClosed",),
+    ("Fcl_EYE_Close",),
+    ("まばたき",),
+)
+_BROWS = (
+    ("browUp",),
+    ("browInnerUp", "browOuterUpLeft", "browOuterUpRight"),
+    ("Brow_Raise_Inner_L", "Brow_Raise_Inner_R", "Brow_Raise_Outer_L", "Brow_Raise_Outer_R"),
+    ("browRaiseInL", "browRaiseInR", "browRaiseOuterL", "browRaiseOuterR"),
+    ("Eyebrow_Raise",),
+)
+_PLAIN = Preset("", "", {})
 
-def enliven(amounts: Floats, shapes: Sequence[str], time: float, speaking: bool) -> None:
-    """Add blink and brows at `time` to amounts (k,) of the shapes, in place, where the face has such shapes."""
-    for shape, amount in (("blink", blink(time)), ("browUp", brow(time) if speaking else 0.0)):
-        if shape in shapes:
-            place = shapes.index(shape)
-            amounts[place] = max(amounts[place], amount)
+
+def enliven(amounts: Floats, face: Face, time: float, speaking: bool) -> None:
+    """Add blink and brows at `time` to amounts (k,) of the face's shapes, in place, where it has such shapes."""
+    lids, brows = _lively(face.shapes, tuple(face.expressions.get("blink", {}).items()))
+    for mix, amount in ((lids, blink(time)), (brows, brow(time) if speaking else 0.0)):
+        for place, share in mix if amount else ():
+            amounts[place] = max(amounts[place], share * amount)
 
 
 def blink(time: float) -> float:
@@ -50,6 +71,24 @@ def brow(time: float) -> float:
     """A slow, slight raising of the brows while speaking, 0…0.14."""
     wave = math.sin(1.1 * time) + math.sin(1.9 * time + 1.0) + math.sin(3.1 * time + 2.0)
     return _BROW * max(0.0, wave / 3.0)
+
+
+@lru_cache(maxsize=16)
+def _lively(
+    shapes: tuple[str, ...], made: tuple[tuple[str, float], ...]
+) -> tuple[tuple[tuple[int, float], ...], tuple[tuple[int, float], ...]]:
+    """What shuts the lids and what lifts the brows: (place among the shapes, share) each.
+
+    made  what a rig's author makes the blink of, if anything is said
+    """
+    rig = Rig(shapes)
+
+    def first(conventions: Iterable[Sequence[str]]) -> tuple[tuple[int, float], ...]:
+        found = ({shape for name in names for shape in rig.shapes(name, _PLAIN)} for names in conventions)
+        return tuple((shapes.index(shape), 1.0) for shape in sorted(next(filter(None, found), ())))
+
+    lids = tuple((shapes.index(shape), share) for shape, share in made if shape in shapes)
+    return lids or first(_LIDS), first(_BROWS)
 
 
 def _start(slot: int) -> float:

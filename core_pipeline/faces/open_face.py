@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -13,15 +15,18 @@ from core_pipeline.faces import face_folder, rig_cache
 from core_pipeline.faces.face import Face
 from core_pipeline.faces.framing import head_camera, head_height, turned_upright
 from core_pipeline.faces.glb import read_rig
+from core_pipeline.faces.gltf_weights import Expressions
 from core_pipeline.faces.mapping_json import load_mapping, mapping_path
 from core_pipeline.faces.obj_folder import read_obj_rig
-from core_pipeline.faces.retarget import OWN_NAMES, Mix, Preset, Retarget, best
+from core_pipeline.faces.retarget import OWN_NAMES, Mix, Preset, Retarget, Rig, best, normalised
 from core_pipeline.faces.steps import Report, silent
 from core_pipeline.files.atomic import reason
 from core_pipeline.files.json_text import shown
 from core_pipeline.poses import FACEFX
 
 _NAMED = 4
+#: Shapes that are there to move nothing: the silence among visemes, the neutral among expressions.
+_AT_REST = re.compile(r"(^|viseme|v)sil(ence)?$|neutral$|^basis$|^rest$")
 
 Cancelled = Callable[[], bool]
 Read = tuple[Face, tuple[str, ...]]
@@ -59,18 +64,30 @@ def open_face(
             raise UserError(f"{path}: opening was cancelled.")
         progress(share)
 
+    presets = tuple(presets)
     ours = path.is_dir() and (path / "face.glb").is_file()
-    face, notes = (face_folder.load(path), ()) if ours else _rig(path, cache, report)
+    face, notes = (face_folder.load(path), ()) if ours else _rig(path, cache, report, _expressions_by(presets))
     retarget = _retarget(path, face, presets, poses, ours)
     face = replace(face, pose_map=retarget.poses)
     return Opened(face, retarget, (*notes, *retarget.notes, *_still_poses(face, retarget.poses)))
 
 
-def _rig(path: Path, cache: Path | None, report: Report) -> Read:
+def _expressions_by(presets: Sequence[Preset]) -> Expressions:
+    """Which shapes of a rig any naming convention knows: what is not among them may be of the person."""
+
+    def among(shapes: Sequence[str]) -> set[str]:
+        rig = Rig(shapes)
+        known = ((preset, name) for preset in presets for name in {*preset.names, *chain(*preset.poses.values())})
+        return {shape for preset, name in known for shape in rig.shapes(name, preset)}
+
+    return among
+
+
+def _rig(path: Path, cache: Path | None, report: Report, among: Expressions) -> Read:
     kept = rig_cache.recall(path, cache) if cache is not None else None
     if kept is not None:
         return kept
-    face, files, notes = _read(path, report)
+    face, files, notes = _read(path, report, among)
     report(1.0)
     face, turned = turned_upright(face)
     face = replace(face, camera=head_camera(face))
@@ -80,7 +97,7 @@ def _rig(path: Path, cache: Path | None, report: Report) -> Read:
     return face, notes
 
 
-def _read(path: Path, report: Report) -> tuple[Face, list[Path], tuple[str, ...]]:
+def _read(path: Path, report: Report, among: Expressions) -> tuple[Face, list[Path], tuple[str, ...]]:
     """The face, the files it was read from, and notes."""
     if path.is_dir():
         if not _obj_files(path):
@@ -92,7 +109,7 @@ def _read(path: Path, report: Report) -> tuple[Face, list[Path], tuple[str, ...]
         raise UserError(f"{path}: one .obj has no poses; choose its folder, with one .obj per pose.")
     if kind not in (".glb", ".gltf", ".vrm") and path.is_file():
         raise UserError(f"{path}: faces are .glb, .gltf or .vrm files or folders of .obj; export it as .glb.")
-    return read_rig(path, report)
+    return read_rig(path, report, among)
 
 
 def _obj_files(folder: Path) -> list[Path]:
@@ -133,7 +150,11 @@ def _health(face: Face) -> tuple[str, ...]:
     """What is odd about the shapes, though they can be played."""
     largest = [float(np.sqrt(np.einsum("ij,ij->i", delta, delta).max(initial=0))) for delta in face.deltas]
     head = head_height(face)
-    still = [shape for shape, motion in zip(face.shapes, largest, strict=True) if motion == 0]
+    still = [
+        shape
+        for shape, motion in zip(face.shapes, largest, strict=True)
+        if motion == 0 and not _AT_REST.search(normalised(shape))
+    ]
     wild = [shape for shape, motion in zip(face.shapes, largest, strict=True) if motion > head]
     notes = []
     if still:

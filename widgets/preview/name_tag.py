@@ -49,6 +49,7 @@ class NameTag(QWidget):
         self.name = self._button("")
         self.name.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         self.name.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
+        self.name.setStyleSheet("QToolButton{padding:2px 4px}")  # with more the "_" of a file's name is cut off
         self.name.clicked.connect(self.face_wanted)
         self.cut = self._button("content-cut")
         self.cut.setCheckable(True)
@@ -67,7 +68,7 @@ class NameTag(QWidget):
         self.away.setHidden(alone)
         others = sum(_BUTTON for button in (self.cut, self.away) if not button.isHidden())
         text = self.fontMetrics().elidedText(tag.name, Qt.TextElideMode.ElideRight, max(room - others - 38, 20))
-        self.name.setText(text)
+        self.name.setText(text.replace("&", "&&"))  # a name has no mnemonics
         self.name.setAccessibleName(self.tr("Face: {0}").format(tag.name))
         self.name.setAccessibleDescription(tag.note)
         self.name.setToolTip("\n".join(filter(None, (tag.name, tag.note, self.tr("Click to choose another face")))))

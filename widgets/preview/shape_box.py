@@ -33,6 +33,8 @@ class ShapeBox(QComboBox):
         completer.setCaseSensitivity(Qt.CaseSensitivity.CaseInsensitive)
         completer.setCompletionMode(QCompleter.CompletionMode.PopupCompletion)
         self.setCompleter(completer)
+        for names in (self.view(), completer.popup()):  # many begin alike and tell what they are at their end
+            names.setTextElideMode(Qt.TextElideMode.ElideMiddle)
         self.textActivated.connect(self._pick)
 
     def set_shapes(self, shapes: Sequence[str]) -> None:

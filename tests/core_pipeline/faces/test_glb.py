@@ -13,6 +13,7 @@ from core_pipeline.errors import UserError
 from core_pipeline.faces import glb, gltf_file
 from core_pipeline.faces.glb import read_glb, read_rig
 from core_pipeline.faces.glb_write import glb_bytes, write_glb
+from core_pipeline.faces.normals import VertexNormals
 from core_pipeline.faces.scaffold import LEFT_OUT
 from tests.helpers.ball import ball
 from tests.helpers.gltf import Gltf, tetrahedron
@@ -243,6 +244,65 @@ def test_a_mesh_without_a_name_is_called_as_what_it_hangs_on(tmp_path):
     del gltf.mesh()["name"]
     gltf.json["nodes"] = [{"name": "Head", "children": [1]}, {"mesh": 0}]
     assert list(read(tmp_path, gltf).parts) == ["Head"]
+
+
+@pytest.mark.parametrize("holder", ["meshes", "nodes"])
+def test_a_person_made_by_shapes_stands_so_and_an_expression_does_not(tmp_path, holder):
+    gltf = tetrahedron()
+    person = np.tile(np.float32([[0, 0, 2]]), (4, 1))
+    gltf.primitive()["targets"].append({"POSITION": gltf.accessor(person)})
+    gltf.mesh()["extras"]["targetNames"] = ["up", "$md-tall"]
+    gltf.mesh()["weights"] = [0, 0]
+    gltf.json[holder][0]["weights"] = [0.5, 0.25]
+    path = tmp_path / "head.glb"
+    path.write_bytes(gltf.glb())
+    face, _, notes = read_rig(path, expressions_among=lambda shapes: {"up"} & set(shapes))
+    np.testing.assert_allclose(face.positions, tetrahedron().points() + np.array([0, 0, 0.5]), atol=1e-6)
+    assert [note.rpartition(": ")[2] for note in notes] == ["$md-tall.", "up."]
+    np.testing.assert_allclose(read(tmp_path, gltf).positions, tetrahedron().points())
+
+
+def test_normals_follow_the_person_and_keep_their_edges(tmp_path):
+    gltf = tetrahedron()
+    flat = tetrahedron().points() * np.float32([0, 0, -0.5])
+    gltf.primitive()["targets"] = [{"POSITION": gltf.accessor(flat)}]
+    gltf.mesh()["extras"]["targetNames"] = ["build"]
+    plain = read(tmp_path, gltf)
+    gltf.primitive()["attributes"]["NORMAL"] = gltf.accessor(plain.normals)
+    gltf.mesh()["weights"] = [1]
+    path = tmp_path / "head.glb"
+    path.write_bytes(gltf.glb())
+    found = read_rig(path, expressions_among=lambda _: ())[0]
+    wanted = VertexNormals(plain.triangles, np.arange(4)).of(plain.positions + flat)
+    np.testing.assert_allclose(found.normals, wanted, atol=1e-6)
+
+
+@pytest.mark.parametrize("weights", [[1], "all", [float("1e99"), 0], {}])
+def test_amounts_that_fit_nothing_are_no_person(tmp_path, weights):
+    gltf = tetrahedron()
+    gltf.mesh()["weights"] = weights
+    if weights == [1]:
+        gltf.mesh()["weights"] = [1, 1, 1]
+    path = tmp_path / "head.glb"
+    path.write_bytes(gltf.glb())
+    np.testing.assert_allclose(read_rig(path, expressions_among=lambda _: ())[0].positions, tetrahedron().points())
+
+
+@pytest.mark.parametrize(
+    ("node", "material", "part"),
+    [
+        ("CC_Base_Tongue", "Std_Skin", "tongue (CC_Base_Tongue)"),
+        ("Teeth", "Std_Tongue", "tongue (Teeth)"),
+        ("tongue", "tongue", "tongue"),
+        ("Head", "teeth_tongue", "Head"),
+    ],
+)
+def test_a_tongue_is_called_so(tmp_path, node, material, part):
+    gltf = tetrahedron()
+    gltf.json["nodes"][0]["name"] = node
+    gltf.json["materials"] = [{"name": material}]
+    gltf.primitive()["material"] = 0
+    assert list(read(tmp_path, gltf).parts) == [part]
 
 
 @pytest.mark.parametrize("where", ["node", "mesh", "material"])

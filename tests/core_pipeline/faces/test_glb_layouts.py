@@ -40,6 +40,24 @@ def test_names_on_the_primitive(tmp_path):
     assert read(tmp_path, gltf).shapes == ("up",)
 
 
+@pytest.mark.parametrize("key", ["extra", "extras"])
+def test_names_on_the_targets_themselves(tmp_path, key):
+    gltf = tetrahedron()
+    del gltf.mesh()["extras"]
+    gltf.primitive()["targets"] = [gltf.primitive()["targets"][0] | {key: {"name": name}} for name in ("A", "O")]
+    assert read(tmp_path, gltf).shapes == ("A", "O")
+    assert notes(tmp_path, gltf) == ()
+    del gltf.primitive()["targets"][1][key]["name"]
+    assert read(tmp_path, gltf).shapes == ("target 0", "target 1")
+
+
+def test_names_on_their_accessors(tmp_path):
+    gltf = tetrahedron()
+    del gltf.mesh()["extras"]
+    gltf.json["accessors"][gltf.primitive()["targets"][0]["POSITION"]]["name"] = "jawOpen"
+    assert read(tmp_path, gltf).shapes == ("jawOpen",)
+
+
 def test_missing_and_doubled_names_are_told(tmp_path):
     gltf = tetrahedron()
     gltf.primitive()["targets"] *= 3
@@ -49,6 +67,9 @@ def test_missing_and_doubled_names_are_told(tmp_path):
     del gltf.mesh()["extras"]
     assert read(tmp_path, gltf).shapes == ("target 0", "target 1", "target 2")
     assert any("targetNames is missing" in note for note in notes(tmp_path, gltf))
+    gltf.add_mesh(gltf.points(), [0, 1, 2], {"a": gltf.points(), "b": gltf.points(), "c": gltf.points()}, "other")
+    del gltf.json["meshes"][1]["extras"]
+    assert notes(tmp_path, gltf) == ("2 meshes do not name their shapes (targetNames is missing): they are numbered.",)
     assert notes(tmp_path, tetrahedron()) == ()
 
 

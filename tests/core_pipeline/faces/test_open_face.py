@@ -17,6 +17,7 @@ from core_pipeline.faces.retarget import OWN_NAMES
 from core_pipeline.faces.texture import Material, Texture
 from core_pipeline.faces.view import View
 from core_pipeline.poses import FACEFX
+from tests.helpers.gltf import tetrahedron
 from tests.helpers.pictures import png, textured
 from tests.helpers.rigs import BACKWARDS, NAMES, PRESETS, Z_UP, as_glb, as_objs, head, moved
 
@@ -151,6 +152,29 @@ def test_shapes_and_poses_that_move_nothing(tmp_path):
     found = opened(as_glb(replace(ARKIT, deltas=deltas), tmp_path / "head.glb"))
     assert any(note.startswith("51 shapes move nothing: browDownLeft") for note in found.notes)
     assert "2 poses move nothing: wide, tTeeth." in found.notes
+
+
+@pytest.mark.parametrize("name", ["viseme_sil", "vrc.v_sil", "sil", "Fcl_ALL_Neutral", "Basis", "head_neutral"])
+def test_what_is_there_to_move_nothing_is_not_odd(tmp_path, name):
+    face = replace(
+        ARKIT,
+        shapes=(*ARKIT.shapes, name),
+        deltas=np.concatenate([ARKIT.deltas, np.zeros((1, len(ARKIT.positions), 3), np.float32)]),
+        normal_deltas=np.concatenate([ARKIT.normal_deltas, np.zeros((1, len(ARKIT.positions), 3), np.float32)]),
+    )
+    assert not any("nothing" in note for note in opened(as_glb(face, tmp_path / "head.glb")).notes)
+
+
+def test_shapes_no_convention_knows_are_of_the_person_when_the_file_sets_them(tmp_path):
+    gltf = tetrahedron()
+    gltf.primitive()["targets"] *= 2
+    gltf.mesh()["extras"]["targetNames"] = ["jawOpen", "age"]
+    gltf.mesh()["weights"] = [0.5, 1]
+    (tmp_path / "head.glb").write_bytes(gltf.glb())
+    found = opened(tmp_path / "head.glb")
+    assert found.face.positions[:, 1].sum() == pytest.approx(2), "the lifted corner stays up"
+    assert any(note.endswith("part of the neutral face: age.") for note in found.notes)
+    assert any(note.endswith("left out of the neutral face: jawOpen.") for note in found.notes)
 
 
 def test_motion_beyond_the_head(tmp_path):

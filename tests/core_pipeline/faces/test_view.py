@@ -201,6 +201,13 @@ def test_of_a_whole_avatar_the_head_fills_the_picture(size, yaw):
     assert max(left, right, up, down) > 0.7
 
 
+def test_a_shape_of_the_whole_body_does_not_make_the_body_the_face():
+    face = on_a_body(rigs.head(("jawOpen", "mouthPucker", "browInnerUp")))
+    tall = 0.1 * face.positions[None] * np.float32([0, 1, 0])
+    grown = replace(face, shapes=(*face.shapes, "tall"), deltas=np.concatenate([face.deltas, tall]))
+    assert head_camera(grown) == head_camera(face)
+
+
 def test_the_mouth_of_a_rig_that_names_no_lips_is_what_its_poses_move():
     face = rigs.head(("jawOpen", "mouthPucker", "browInnerUp"), rings=40)
     face = replace(face, camera=head_camera(face), pose_map={"open": {"jawOpen": 1}, "W": {"mouthPucker": 1}})

@@ -167,6 +167,21 @@ def test_each_face_has_its_tag_in_its_own_part_of_the_picture(view):
     assert view.name_tags[2].name.text().endswith("…")
 
 
+def test_a_name_with_odd_letters_is_seen_whole(view):
+    def seen(name):
+        view.set_tags([Tag(name)])
+        button = view.name_tags[0].name
+        button.resize(90, button.height())
+        return button.grab().toImage()
+
+    view.setStyleSheet("QToolButton{padding:4px;border:1px solid transparent}")  # as in the window
+    assert seen("a__b") != seen("a\u2007\u2007b"), "the lines under the letters are not cut off"
+    assert seen("a & b") != seen("a b")
+    assert view.name_tags[0].name.text() == "a b"
+    view.set_tags([Tag("a & b")])
+    assert view.name_tags[0].name.text() == "a && b"
+
+
 @pytest.mark.parametrize("size", [(280, 240), (160, 160), (700, 300), (200, 640)])
 def test_tags_stay_in_the_picture_and_apart_at_any_size(qtbot, view, size):
     view.set_tags([Tag("Toon"), Tag("Woman"), Tag("Crab", "It cannot make W.", mute=True)])

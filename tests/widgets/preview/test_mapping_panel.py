@@ -155,6 +155,11 @@ def test_a_shape_is_searched_added_moved_and_left_out(qtbot, panel, wishes):
     assert panel.mix.add.findText("tongueOut") >= 0
 
 
+def test_names_that_begin_alike_are_told_apart_by_their_end(panel):
+    box = panel.mix.add
+    assert {names.textElideMode() for names in (box.view(), box.completer().popup())} == {Qt.TextElideMode.ElideMiddle}
+
+
 def test_what_fits_no_name_adds_nothing(qtbot, panel, wishes):
     field = panel.mix.add.lineEdit()
     field.setFocus()
