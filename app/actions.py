@@ -99,11 +99,11 @@ class Actions:
     def _edit(self, undo_stack: QUndoStack) -> None:
         tr, menu = self._tr, self.registry.menu(self._tr("&Edit"))
         self.edit_menu = menu
-        self.undo = menu.put("edit.undo", undo_stack.createUndoAction(self._window, tr("&Undo")), "Ctrl+Z")
+        self.undo = menu.put("edit.undo", undo_stack.createUndoAction(self._window, tr("&Undo")), "Ctrl+Z", tr("Undo"))
         self.undo.setIcon(theme.icon("undo"))
         self.undo.setStatusTip(tr("Take the last change back"))
         self.redo = menu.put(
-            "edit.redo", undo_stack.createRedoAction(self._window, tr("&Redo")), ("Ctrl+Shift+Z", "Ctrl+Y")
+            "edit.redo", undo_stack.createRedoAction(self._window, tr("&Redo")), ("Ctrl+Shift+Z", "Ctrl+Y"), tr("Redo")
         )
         self.redo.setIcon(theme.icon("redo"))
         self.redo.setStatusTip(tr("Make the change again that was taken back"))

@@ -61,7 +61,7 @@ PRESETS: Mapping[str, Preset] = MappingProxyType(
             (("mapping",),),
             (("preview",), ("weights",)),
             (),
-            wide=(340, 620),
+            wide=(400, 620),
             quarters=1.5,
         ),
         "curves": Preset(str(QT_TRANSLATE_NOOP("Layouts", "&Curves Only")), bottom=()),

@@ -24,17 +24,19 @@ class Entry:
     id       its name in the user's settings; never changes
     group    the menu it stands in, "View" or "View → Character"
     default  the keys it has until the user says otherwise, portable text
+    name     what it is always called, where the menu says more: "Redo" of "Redo Move keys"
     """
 
     id: str
     group: str
     action: QAction
     default: tuple[str, ...]
+    name: str = ""
 
     @property
     def title(self) -> str:
         """What it is called, without mnemonic and dots."""
-        return plain(self.action.text())
+        return self.name or plain(self.action.text())
 
 
 class Registry:
@@ -99,10 +101,10 @@ class Menu:
             action.setChecked(checked)
         return self.put(name, action, keys)
 
-    def put(self, name: str, action: QAction, keys: Keys = ()) -> QAction:
-        """An action that somebody else has made."""
+    def put(self, name: str, action: QAction, keys: Keys = (), title: str = "") -> QAction:
+        """An action that somebody else has made; `title`: what lists call it, whatever it says of itself."""
         self.menu.addAction(action)
-        self._registry.register(Entry(name, self._group, action, (keys,) if isinstance(keys, str) else keys))
+        self._registry.register(Entry(name, self._group, action, (keys,) if isinstance(keys, str) else keys, title))
         return action
 
     def line(self) -> None:

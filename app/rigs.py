@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -49,13 +49,16 @@ def curves_of(path: Path) -> Path:
     return resources.english_curves()
 
 
-def open_rig(path: Path, poses: Sequence[str] = FACEFX) -> Opened:
-    """Any face: one of ours or a user's rig; kept in the user's cache for the next time."""
+def open_rig(path: Path, poses: Sequence[str] = FACEFX, cancelled: Callable[[], bool] = lambda: False) -> Opened:
+    """Any face: one of ours or a user's rig; kept in the user's cache for the next time.
+
+    cancelled  asked now and then; True ends it with a UserError
+    """
     from core_pipeline.faces import rig_cache
     from core_pipeline.faces.mapping_json import load_presets
     from core_pipeline.faces.open_face import open_face
 
-    return open_face(path, load_presets(resources.retarget_presets()), poses, rig_cache.user_cache())
+    return open_face(path, load_presets(resources.retarget_presets()), poses, rig_cache.user_cache(), cancelled)
 
 
 def tell_face(options: argparse.Namespace) -> int:

@@ -98,8 +98,11 @@ class Cast:
         if len(actors) > MOST:
             raise ValueError(f"{len(actors)} faces; {MOST} at most")
         before, self._parts = self._parts, []
+        left = list(before)  # a face that stands there twice is seen in two ways
         for actor in actors:
-            known = next((p for p in (*before, *self._parts) if p.mesh.positions is actor.face.positions), None)
+            known = next((p for p in (*left, *self._parts, *before) if p.mesh.positions is actor.face.positions), None)
+            if known in left:
+                left.remove(known)
             if known is None:
                 view = View.on(actor.face, self._angle)
                 if before and before[0].view.outline is not None:

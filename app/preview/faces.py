@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import threading
 import time
 from collections.abc import Callable, Sequence
@@ -99,10 +100,11 @@ class Faces(QObject):
         if number != self._number:
             return
         if isinstance(result, Exception):
+            folder = f"{self.path.parent}{os.sep}"
             self._stay()
             if not isinstance(result, UserError):
                 raise result
-            self.failed.emit(str(result))
+            self.failed.emit(str(result).replace(folder, ""))  # it was chosen there just now
         else:
             self._there, self._poses_there, self._reads = self.path, self._poses, False
             self.opened.emit(result)

@@ -6,6 +6,7 @@ import hashlib
 import queue
 import threading
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,7 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QImage
 
 from core_pipeline.errors import UserError
-from core_pipeline.faces import rig_cache
+from core_pipeline.faces import render, rig_cache
 from core_pipeline.faces.render import Figure, Renderer
 from core_pipeline.faces.view import View
 from core_pipeline.files.atomic import write_atomically
@@ -26,8 +27,6 @@ from .png import png
 SIDE = 192
 #: Portraits kept; the ones used longest ago go first.
 KEPT = 200
-#: Part of a key: another renderer or frame makes other portraits.
-_LOOKS = b"lipstitch portrait 1"
 _CHUNK = 1 << 20
 
 
@@ -83,7 +82,7 @@ class Thumbnails(QObject):
         if image.size().width() == SIDE:
             kept.touch()
             return image
-        face = open_rig(path).face
+        face = open_rig(path, cancelled=lambda: self._stopping).face
         figure = Figure(face, np.zeros(len(face.shapes), np.float32), View.on(face))
         pixels = renderer.draw([figure], (SIDE, SIDE))
         image = QImage(pixels.data, SIDE, SIDE, 4 * SIDE, QImage.Format.Format_RGB32).copy()
@@ -117,9 +116,18 @@ def _files(path: Path) -> Iterator[Path]:
         yield path
 
 
+@cache
+def _looks() -> bytes:
+    """Of what reads and draws faces: another renderer makes other portraits of the same files."""
+    digest, ours = hashlib.sha256(), Path(render.__file__).parent
+    for file in sorted((*ours.glob("*.py"), *ours.glob("shaders/*"), Path(__file__))):
+        digest.update(file.read_bytes())
+    return digest.digest()
+
+
 def _fingerprint(path: Path) -> str:
     """The same for the same contents, wherever they are. OSError when a file cannot be read."""
-    digest = hashlib.sha256(_LOOKS)
+    digest = hashlib.sha256(_looks())
     for file in _files(path):
         digest.update(file.name.encode(errors="surrogateescape") if path.is_dir() else b"")
         with file.open("rb") as stream:

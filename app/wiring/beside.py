@@ -8,9 +8,9 @@ from PySide6.QtCore import QObject
 
 from core_pipeline.curve_set import Bigram
 from core_pipeline.curves import Curve
-from core_pipeline.errors import UserError
 from core_pipeline.phonemes import Pair
 
+from .canvas_hand import CanvasHand
 from .open_bigram import OpenBigram, place_in
 from .parts import Parts
 
@@ -45,9 +45,7 @@ class Beside(QObject):
         canvas.active_changed.connect(bigram.activate_pose)
         canvas.selection_changed.connect(w.selection_label.setText)
         canvas.hint_changed.connect(w.hint_label.setText)
-        canvas.preview_changed.connect(self._gesture)
-        canvas.cancelled.connect(self._cancelled)
-        canvas.edited.connect(self._edited)
+        CanvasHand(parts, canvas, lambda: self.pair, self._show, self)
         canvas.play_wanted.connect(parts.preview.toggle_sentence)
         w.header.snap_toggled.connect(canvas.set_snap)
         parts.document.replaced.connect(self._replaced)
@@ -119,23 +117,3 @@ class Beside(QObject):
     def _curves(self) -> Mapping[str, Curve]:
         nothing = Bigram()
         return self._document.curve_set.bigrams.get(self.pair, nothing).curves if self.pair is not None else {}
-
-    # ── edit ─────────────────────────────────────────────────────────────────────────────────────
-
-    def _gesture(self, curves: Mapping[str, Curve]) -> None:
-        if self.pair is not None:
-            self._session.set_preview(self.pair, curves)
-
-    def _cancelled(self) -> None:
-        if self.pair is not None:
-            self._session.set_preview(self.pair, None)
-
-    def _edited(self, curves: Mapping[str, Curve | None], label: str) -> None:
-        if self.pair is None:
-            return
-        try:
-            self._document.edit_curves(self.pair, curves, label)
-        except UserError as error:
-            self._cancelled()
-            self._show()
-            self._window.hint_label.setText(str(error))

@@ -35,6 +35,7 @@ class Compare(QObject):
         self._state, self._bigram = parts.state, bigram
         self._opened = self._document.curve_set
         self.other: CurveSet | None = None
+        self._file_name = ""  # of `other`, when it came from a file
         self._drawn: tuple[Utterance | None, CurveSet | None] = (None, None)
         tools = self._window.actions_.tools_menu
         self.hold_action = tools.add(
@@ -88,7 +89,9 @@ class Compare(QObject):
     def open_file(self, path: Path) -> None:
         """Compare with the set in a file."""
         try:
-            self.use(curve_set_json.load(path))
+            other = curve_set_json.load(path)
+            self._file_name = path.name  # two versions of a set bear one name
+            self.use(other)
         except UserError as error:
             self.use(None)
             self._window.hint_label.setText(str(error))
@@ -111,7 +114,7 @@ class Compare(QObject):
             self._window.hint_label.setText("")
 
     def _name(self, other: CurveSet) -> str:
-        return self.tr("The version at opening") if other is self._opened else other.name
+        return self.tr("The version at opening") if other is self._opened else self._file_name or other.name
 
     def _ask_file(self) -> None:
         name, _ = QFileDialog.getOpenFileName(

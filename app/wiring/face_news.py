@@ -30,7 +30,13 @@ class FaceNews(QObject):
         character.company.arrived.connect(lambda _: self._done())
         self._notice.wanted.connect(self._help)
 
+    @property
+    def _reads(self) -> bool:
+        return self._faces.reads or self._character.company.reads
+
     def _tell(self, sentence: str) -> None:
+        if not self._reads:
+            return  # it was on its way when the reading was cancelled
         self._notice.tell(sentence, self.tr("Cancel"))
         self._window.hint_label.setText(sentence)
 
@@ -51,7 +57,7 @@ class FaceNews(QObject):
 
     def _done(self) -> None:
         """What was said of the reading is over, once nothing more is read."""
-        if not (self._notice.warns or self._faces.reads or self._character.company.reads):
+        if not (self._notice.warns or self._reads):
             self._notice.hide()
 
     def _help(self) -> None:

@@ -251,6 +251,7 @@ class Mapping(QObject):
             written = save_mapping(path, preset, _plain(mixes))
         except UserError as error:
             hint.setText(str(error))
+            self._window.face_view.notice.warn(str(error))  # the work is not kept: that must be seen
             return False
         hint.setText(self.tr("Saved {0}").format(written))
         self._unsaved.pop(path, None)

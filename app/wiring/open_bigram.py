@@ -10,7 +10,6 @@ from PySide6.QtCore import QObject, Signal
 
 from core_pipeline.curve_set import Bigram
 from core_pipeline.curves import Curve
-from core_pipeline.errors import UserError
 from core_pipeline.phone_classes import similar_bigrams
 from core_pipeline.phonemes import Pair
 from core_pipeline.pipeline import Stages
@@ -18,6 +17,7 @@ from core_pipeline.speech.spelling import Span, in_words
 from core_pipeline.speech.utterance import Utterance
 from widgets.picker.bigram_model import spoken_pair
 
+from .canvas_hand import CanvasHand
 from .parts import Parts
 
 #: Pose → normalised times and weights.
@@ -51,9 +51,8 @@ class OpenBigram(QObject):
         self.locked: set[str] = set()
         self._spelt: tuple[Utterance | None, list[tuple[str, Span]]] = (None, [])
         w = self._window
-        w.canvas.preview_changed.connect(self._gesture)
-        w.canvas.edited.connect(self._edited)
-        w.canvas.cancelled.connect(self._gesture_cancelled)
+        CanvasHand(parts, w.canvas, lambda: self.pair, self.show_curves, self)
+        w.canvas.preview_changed.connect(self._look_at)
         w.canvas.active_changed.connect(self.activate_pose)
         w.pose_list.pose_picked.connect(self.activate_pose)
         w.pose_list.visibility_changed.connect(self._visibility_changed)
@@ -205,14 +204,9 @@ class OpenBigram(QObject):
         pairs = similar_bigrams(curve_set, self.pair) if self.pair is not None else []
         return {spoken_pair(pair): curve_set.bigrams[pair].curves for pair in pairs}
 
-    # ── edit ─────────────────────────────────────────────────────────────────────────────────────
-
-    def _gesture(self, curves: Mapping[str, Curve]) -> None:
-        """While a key is dragged, overlay and face follow; the document does not change yet."""
-        if self.pair is None:
-            return
-        self._session.set_preview(self.pair, curves)
-        if self._preview.player.playing or self._preview.bigram_player.playing:
+    def _look_at(self, curves: Mapping[str, Curve]) -> None:
+        """While a key is dragged, the face shows its moment."""
+        if self.pair is None or self._preview.player.playing or self._preview.bigram_player.playing:
             return
         keys = [(pose, i) for pose, i in self._window.canvas.selection if pose in curves and i < len(curves[pose])]
         if not keys:
@@ -223,20 +217,6 @@ class OpenBigram(QObject):
             self._preview.scrub(span[0] + s * (span[2] - span[0]))
         else:
             self._preview.show_bigram(s)
-
-    def _gesture_cancelled(self) -> None:
-        if self.pair is not None:
-            self._session.set_preview(self.pair, None)
-
-    def _edited(self, curves: Mapping[str, Curve | None], label: str) -> None:
-        if self.pair is None:
-            return
-        try:
-            self._document.edit_curves(self.pair, curves, label)
-        except UserError as error:
-            self._gesture_cancelled()
-            self.show_curves()
-            self._window.hint_label.setText(str(error))
 
     # ── poses ────────────────────────────────────────────────────────────────────────────────────
 

@@ -8,6 +8,7 @@ from app.actions import Actions
 from app.document import Document
 from app.menus import Registry, plain
 from core_pipeline.curve_set import CurveSet
+from core_pipeline.curves import Curve
 
 
 @pytest.fixture
@@ -59,3 +60,12 @@ def test_no_two_actions_of_the_window_share_a_key_or_a_mnemonic(window):
         assert len(mnemonics) == len(set(mnemonics)), texts
     titles = [menu.text() for menu in window.menuBar().actions()]
     assert [plain(t) for t in titles] == ["File", "Edit", "View", "Bigram", "Sentence", "Playback", "Tools", "Help"]
+
+
+def test_undo_and_redo_keep_their_names_in_lists_whatever_they_would_do(window):
+    document = Document(CurveSet())
+    actions = Actions(window, document.undo_stack)
+    document.edit_curves(("f", "ah"), {"open": Curve.of([(0, 0), (0.5, 1), (1, 0)])}, "Move keys")
+    document.undo_stack.undo()
+    assert actions.redo.text() == "&Redo Move keys"
+    assert actions.registry["edit.redo"].title == "Redo"

@@ -13,6 +13,7 @@ from pytestqt.qtbot import QtBot
 
 from app import resources
 from app.editor import Editor
+from core_pipeline.faces.mapping_json import mapping_path
 from tests.helpers import mouse, rigs
 
 ARKIT = ("jawOpen", "mouthPucker", "mouthFunnel", "mouthRollLower", "mouthRollUpper")
@@ -262,3 +263,13 @@ def test_behind_another_tab_the_panel_holds_no_pose(editor: Editor, qtbot: QtBot
     editor.window.weights_dock.raise_()
     qtbot.waitUntil(lambda: not held[-1])
     assert not editor.window.mapping_panel.hold.isChecked()
+
+
+def test_a_mapping_that_cannot_be_kept_is_told_over_the_picture(editor: Editor, qtbot: QtBot, rig: Path) -> None:
+    teach(editor, qtbot, rig)
+    pick(editor, "W")
+    slide(editor, "mouthPucker", 0.3)
+    mapping_path(rig).mkdir()
+    assert not editor.wiring.mapping.save()
+    assert mapping_path(rig).name in editor.window.face_view.notice.text
+    assert editor.window.mapping_panel.save.isEnabled()

@@ -182,7 +182,7 @@ def test_a_recording_replayed_as_if_live_moves_the_face_and_becomes_an_utterance
 ) -> None:
     with qtbot.waitSignal(editor.wiring.speech_in.recording.hearing.opened, timeout=20_000):
         drop(editor, wav)
-    panel, live = editor.window.live_panel, editor.wiring.speech_in.live
+    panel, live = editor.window.live_panel, editor.wiring.speech_in.microphone.worker
     editor.window.actions_.live.trigger()
     assert panel.devices.count() > 0  # the microphones, or that there is none
     shown: list[float] = []

@@ -222,6 +222,8 @@ def test_reading_is_cancelled_by_a_button_over_the_picture(
         assert notice.text == ""
         assert not editor.faces.reads
         assert not company.reads
+        editor.faces.reading.emit("large: 20 % read")  # was on its way
+        assert notice.text == ""
     qtbot.wait(50)
     assert names(editor) == ["toon"]
     assert editor.wiring.character.paths == [resources.face_folder()]

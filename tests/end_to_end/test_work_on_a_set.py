@@ -293,7 +293,7 @@ def test_comparing_tints_what_differs_and_draws_both(editor: Editor, qtbot: QtBo
     assert pairs.differences[F_AH] > 0.5
     assert pairs.differences["oy", "oy"] == 0
     legend = editor.window.picker.legend
-    assert legend.names[0] == "like English"
+    assert legend.names[0] == "like other.json"
     assert "hold B" in editor.window.hint_label.text()
     assert compare.file.isChecked()
     assert editor.window.stage_panel.overlay._other["FV"].peak > 0.5

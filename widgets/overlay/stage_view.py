@@ -1,7 +1,8 @@
 """What the stage overlay shows: a row per pose on one time axis, the black rows below, the playhead.
 
 Each row is a cached pixmap, redrawn only when its lines changed, and so is the ground behind and below them;
-moving the playhead copies two narrow strips of these, an edit the rows it changed.
+moving the playhead copies two narrow strips of these, an edit the rows it changed. How they look is in
+stage_pictures.py.
 """
 
 from __future__ import annotations
@@ -9,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRect, QRectF, Qt
+from PySide6.QtCore import QRect, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QPen, QPixmap, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
@@ -20,15 +21,13 @@ from core_pipeline.weights import Weights
 from .. import theme
 from . import stage_backdrop as backdrop
 from .stage_footer import ROW, Footer, Span
-from .stage_layers import LAYERS, RowPlace, draw_ghost, draw_method, draw_origin, draw_other
+from .stage_layers import LAYERS
 from .stage_lines import Line, PoseLines, pose_lines, weights_lines
 from .stage_marks import HALF, Mark, draw_marks
-from .stage_picking import Reading, curve_of
+from .stage_picking import Reading
+from .stage_pictures import RIGHT, Backdrop, RowCurves, Sheet, draw_ground, draw_reading, draw_row
 from .stage_rows import MODES, Row, lay_out
 from .time_axis import TimeAxis
-
-#: Pixels right of the axis.
-_RIGHT = 10
 
 
 class StageView(QWidget):
@@ -233,7 +232,7 @@ class StageView(QWidget):
         peaks = {pose: lines.peak for pose, lines in self._lines.items()}
         rows = lay_out(tuple(self._lines), self.active_pose, peaks, self._mode, self.rows_height)
         gutter = self._names.width([*self._lines, *(title + "  +9" for title in self._footer.titles(4))])
-        axis = self._axis.with_pixels(float(min(gutter, self.width() // 3)), float(self.width() - _RIGHT))
+        axis = self._axis.with_pixels(float(min(gutter, self.width() // 3)), float(self.width() - RIGHT))
         if (rows, axis) != (self._rows, self._axis):
             self._rows, self._axis = rows, axis
             self._redraw()
@@ -284,7 +283,9 @@ class StageView(QWidget):
             first, last = (self._axis.left + (x - self._axis.x0) / self._axis.scale for x in _around(event.rect()))
             marks = [mark for mark in self._marks if first <= mark.time <= last]
             draw_marks(painter, marks, self._axis, self.row_of)
-            self._paint_reading(painter, self._stages)
+            reading = self._reading
+            if reading is not None and (under := self.row_of(reading.pose)) is not None:
+                draw_reading(painter, under, self._axis, self._stages, reading, self._styles["red"])
             backdrop.draw_playhead(painter, self._axis, self._playhead, self.height())
         if self.hasFocus():
             painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
@@ -293,88 +294,22 @@ class StageView(QWidget):
             painter.drawRect(self.rect().adjusted(0, 0, -1, -1))
         painter.end()
 
-    def _paint_reading(self, painter: QPainter, stages: Stages) -> None:
-        """Under the mouse: the curve that made this place, and the final weight."""
-        reading = self._reading
-        row = None if reading is None else self.row_of(reading.pose)
-        if reading is None or row is None:
-            return
-        place = self._place(row)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
-        painter.setClipRect(QRectF(self._axis.x0 - 2, row.top, self._axis.x1 - self._axis.x0 + 4, row.height))
-        curve = None if reading.index is None else curve_of(stages, reading.index, reading.pose)
-        if curve is not None:
-            draw_origin(painter, place, Line(curve.t, curve.v), self._styles["red"])
-        at = QPointF(self._axis.px(reading.time), place.base - place.tall * reading.values[-1])
-        painter.setPen(QPen(theme.BACKGROUND, 1))
-        painter.setBrush(theme.BRIGHT)
-        painter.drawEllipse(at, 3.2, 3.2)
-        painter.setClipping(False)
-
-    def _pixmap(self, height: int) -> QPixmap:
-        ratio = self.devicePixelRatioF()
-        pixmap = QPixmap(round(self.width() * ratio), round(height * ratio))
-        pixmap.setDevicePixelRatio(ratio)
-        return pixmap
+    def _sheet(self) -> Sheet:
+        return Sheet(self.width(), self.height(), self.devicePixelRatioF(), self._axis)
 
     def _drawn_ground(self, stages: Stages) -> QPixmap:
-        """Behind the rows stripes, spans and boundaries; below them the black rows."""
-        ground = self._pixmap(self.height())
-        ground.fill(theme.BACKGROUND)
-        painter = QPainter(ground)
-        for row in self._rows[1::2]:
-            painter.fillRect(0, row.top, self.width(), row.height, backdrop.STRIPE)
-        axis, tall = self._axis, self.rows_height
-        wide = round(axis.x1 - axis.x0) + _RIGHT
-        painter.setClipRect(QRect(round(axis.x0) - 4, 0, wide + 4, tall))
-        span = self._span(self._index)
-        backdrop.draw_spans(painter, axis, stages.schedule, self._pair, span, tall)
-        backdrop.draw_boundaries(painter, axis, stages.schedule, tall)
-        painter.setClipping(False)
-        if self._loop is not None:
-            backdrop.draw_loop(painter, axis, self._loop, tall + ROW)
-        box = QRect(0, tall, self.width(), self.height() - tall)
-        lit = frozenset() if span is None or self._index is None else frozenset((self._index, self._index + 1))
+        hidden = len(self._lines) - len(self._rows) if self._mode != "one" else 0
         sources = self._sources if len(self._sources) == len(stages.schedule) else ()
-        self._footer.draw(painter, box, axis, stages, sources, lit, self._loop, self._words)
-        if hidden := len(self._lines) - len(self._rows) if self._mode != "one" else 0:
-            painter.setFont(self._names.small)
-            painter.setPen(theme.WEAK)
-            aside = QRect(0, tall, round(axis.x0) - 8, ROW - 1)
-            painter.drawText(aside, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight, f"+{hidden}")
-        painter.end()
-        return ground
-
-    def _place(self, row: Row) -> RowPlace:
-        above = min(max(row.height // 10, 2), 8)
-        below = 3 if row.height < 40 else 5
-        return RowPlace(self._axis, row.bottom - below - 0.5, float(row.height - above - below))
+        span, index = self._span(self._index), self._index
+        what = Backdrop(
+            stages, self._rows, self.rows_height, hidden, self._pair, index, span, self._loop, sources, self._words
+        )
+        return draw_ground(self._sheet(), what, self._names, self._footer)
 
     def _drawn_row(self, row: Row) -> QPixmap:
-        pixmap = self._pixmap(row.height)
-        pixmap.fill(Qt.GlobalColor.transparent)
-        place, lines, axis = self._place(row), self._lines[row.pose], self._axis
-        painter = QPainter(pixmap)
-        self._names.draw(painter, row, axis.x0)
-        painter.translate(0, -row.top)
-        if not row.idle:
-            base = round(place.base + 0.5)
-            painter.fillRect(QRect(round(axis.x0), base, round(axis.x1 - axis.x0), 1), backdrop.BASE)
-        if row.height >= backdrop.SCALED:
-            self._names.draw_scale(painter, place)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
-        painter.setClipRect(QRectF(axis.x0 - 2, row.top, axis.x1 - axis.x0 + 4, row.height))
-        if (ghost := self._ghost.get(row.pose)) is not None:
-            draw_ghost(painter, place, ghost, lines)
-        for layer in LAYERS:
-            if layer.name in self._shown:
-                layer.draw(painter, place, lines, self._styles[layer.name])
-        if (other := self._other.get(row.pose)) is not None:
-            draw_other(painter, place, other, self._styles["magenta"])
-        if (method := self._method.get(row.pose)) is not None:
-            draw_method(painter, place, method)
-        painter.end()
-        return pixmap
+        pose = row.pose
+        curves = RowCurves(self._lines[pose], self._ghost.get(pose), self._other.get(pose), self._method.get(pose))
+        return draw_row(self._sheet(), row, curves, self._names, self._shown, self._styles)
 
 
 def _around(rect: QRect) -> tuple[int, int]:

@@ -48,8 +48,8 @@ class BigramLegend(QWidget):
         if name:
             self._entries = (
                 (self.tr("like {0}").format(name), theme.SUNKEN, theme.BORDER),
-                (self.tr("a little else"), theme.mix(theme.HIGHLIGHT, theme.SUNKEN, 0.4), None),
-                (self.tr("quite else"), theme.HIGHLIGHT, None),
+                (self.tr("differs a little"), theme.mix(theme.HIGHLIGHT, theme.SUNKEN, 0.4), None),
+                (self.tr("differs much"), theme.HIGHLIGHT, None),
                 *self._state_of_work[-2:],
             )
         else:

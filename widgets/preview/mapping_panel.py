@@ -23,6 +23,7 @@ from core_pipeline.poses import MEANING
 from .. import theme
 from ..elided_label import ElidedLabel
 from ..settings.row_table import pose_box
+from ..wrapped_label import WrappedLabel
 from .mix_table import MixTable
 
 _Role = Qt.ItemDataRole
@@ -232,10 +233,8 @@ class MappingPanel(QWidget):
         return button
 
     @staticmethod
-    def _text(colour: str) -> QLabel:
-        label = QLabel()
-        label.setWordWrap(True)
-        label.setTextFormat(Qt.TextFormat.PlainText)
+    def _text(colour: str) -> WrappedLabel:
+        label = WrappedLabel()
         label.setStyleSheet(f"color:{colour}")
         return label
 
@@ -277,13 +276,13 @@ class MappingPanel(QWidget):
     def _show_missing(self) -> None:
         pose = self.pose
         gone = bool(pose) and not self._available(pose)
-        self._missing.setText(self.tr("Not available on this face") if gone else "")
+        self._missing.set_text(self.tr("Not available on this face") if gone else "")
         self._missing.setVisible(gone)
 
     def _show_pose(self) -> None:
         pose = self.pose
         self._name.setText(pose)
-        self._meaning.setText(MEANING.get(pose, ""))
+        self._meaning.set_text(MEANING.get(pose, ""))
         self._meaning.setVisible(pose in MEANING)
         self.hold.setEnabled(bool(pose))
         self.mix.setEnabled(bool(pose))

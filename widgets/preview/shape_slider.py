@@ -92,7 +92,8 @@ class ShapeSlider(QSlider):
         painter.drawPath(shape)
         painter.setPen(theme.TEXT if on else theme.MUTED)
         inside = self.rect().adjusted(_PAD, 0, -_PAD, 0)
-        text = self.fontMetrics().elidedText(self._name, Qt.TextElideMode.ElideMiddle, inside.width())
+        # where names of shapes differ is mostly at their ends: mouthLowerDownLeft, mouthFrownLeft
+        text = self.fontMetrics().elidedText(self._name, Qt.TextElideMode.ElideLeft, inside.width())
         painter.drawText(inside, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, text)
 
     def _to(self, event: QMouseEvent) -> None:

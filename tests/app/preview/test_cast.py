@@ -55,6 +55,16 @@ def test_one_face_with_two_sources_shares_a_mesh():
     assert not np.array_equal(one.amounts, other.amounts)
 
 
+def test_a_face_that_stands_there_twice_is_seen_in_two_ways_whatever_else_changes():
+    face = ball()
+    cast = cast_of(face, face)
+    cast.cut_away(1, True)
+    cast.set_actors([*cast.actors, Actor(ball(8))])
+    assert [view.cutaway for view in cast.views] == [False, True, False]
+    cast.set_actors([Actor(face), Actor(ball(8)), Actor(face)])
+    assert [view.cutaway for view in cast.views] == [False, False, True]
+
+
 def test_cameras_turn_together_and_a_newcomer_joins_them():
     cast = cast_of(ball())
     cast.orbit(50, -20)

@@ -1,5 +1,6 @@
 """Faces are read in a thread of their own: the latest wish counts, and long reading says how far it is."""
 
+import os
 import threading
 
 import numpy as np
@@ -89,6 +90,15 @@ def test_after_a_failure_the_face_that_is_there_is_the_one_to_come_back_to(faces
         faces.open(bad, FACEFX)
     assert faces.path == good
     assert not faces.reads
+
+
+def test_a_failure_names_the_file_without_the_way_to_it(faces, qtbot, tmp_path):
+    folder = as_objs(head(), tmp_path / "poses")
+    (folder / "jawOpen.obj").write_text("v 0 0 0\nf 1 1 1\n")
+    with qtbot.waitSignal(faces.failed) as caught:
+        faces.open(folder, FACEFX)
+    assert "poses/jawOpen.obj".replace("/", os.sep) in caught.args[0]
+    assert str(tmp_path) not in caught.args[0]
 
 
 def test_a_failure_with_another_pose_set_matches_the_face_that_is_there_to_it(faces, qtbot, tmp_path):

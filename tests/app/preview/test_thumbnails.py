@@ -1,6 +1,7 @@
 """Portraits: drawn once for what is in the files, kept on disk, and missing rather than wrong."""
 
 import shutil
+import threading
 from pathlib import Path
 
 import numpy as np
@@ -8,7 +9,9 @@ import pytest
 from PySide6.QtGui import QImage
 
 from app import resources
+from app.preview import thumbnails as module
 from app.preview.thumbnails import SIDE, Thumbnails
+from core_pipeline.errors import UserError
 from tests.helpers import rigs
 
 
@@ -64,6 +67,14 @@ def test_the_same_file_elsewhere_is_the_same_and_a_changed_one_is_drawn_anew(qtb
     assert len(kept(tmp_path)) == 2
 
 
+def test_another_renderer_draws_anew(qtbot, makers, tmp_path, monkeypatch):
+    path = resources.face_folder("toon")
+    portrait(qtbot, makers(), path)
+    monkeypatch.setattr(module, "_looks", lambda: b"another")
+    portrait(qtbot, makers(), path)
+    assert len(kept(tmp_path)) == 2
+
+
 def test_a_damaged_file_gets_none_and_the_next_one_does(qtbot, makers, tmp_path):
     bad = tmp_path / "bad.glb"
     bad.write_bytes(b"glTF nonsense")
@@ -79,3 +90,20 @@ def test_a_damaged_file_gets_none_and_the_next_one_does(qtbot, makers, tmp_path)
 def test_a_cache_that_cannot_be_written_harms_nothing(qtbot, makers, tmp_path):
     (tmp_path / "portraits").write_text("in the way")
     assert portrait(qtbot, makers(), resources.face_folder("toon")).std() > 20
+
+
+def test_stopping_waits_for_no_large_rig(makers, tmp_path, monkeypatch):
+    reading, asked = threading.Event(), []
+
+    def endless(_path, cancelled):
+        reading.set()
+        while not cancelled():
+            asked.append(1)
+        raise UserError("opening was cancelled")
+
+    monkeypatch.setattr(module, "open_rig", endless)
+    thumbnails = makers()
+    thumbnails.ask(rigs.as_glb(rigs.head(), tmp_path / "head.glb"))
+    assert reading.wait(20)
+    thumbnails.stop()
+    assert asked

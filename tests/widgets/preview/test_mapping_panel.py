@@ -3,12 +3,13 @@
 import pytest
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QImage
-from PySide6.QtWidgets import QAbstractButton, QAbstractSpinBox, QComboBox, QListWidget, QSlider
+from PySide6.QtWidgets import QAbstractButton, QAbstractSpinBox, QApplication, QComboBox, QListWidget, QSlider
 
 from core_pipeline.faces.mapping_json import MAX_AMOUNT
 from tests.helpers import mouse
 from widgets.preview.mapping_panel import REFERENCE, MappingPanel
 from widgets.preview.mix_table import other_side
+from widgets.wrapped_label import WrappedLabel
 
 # the offscreen platform has no window manager to talk to
 pytestmark = pytest.mark.qt_log_ignore("This plugin does not support")
@@ -275,3 +276,17 @@ def test_it_fits_a_narrow_dock(qtbot, panel):
     for row in panel.mix.table.rows:
         assert row.slider.width() >= 70
         assert row.remove.mapTo(panel, row.remove.rect().topRight()).x() < panel.width()
+
+
+def test_words_about_a_pose_are_whole_at_any_width(qtbot, panel):
+    picture = QImage(REFERENCE, REFERENCE, QImage.Format.Format_RGB32)
+    picture.fill(0)
+    panel.set_reference(picture, "Toon")
+    for width in (330, 345, 420, 700, 330):
+        panel.resize(width, 700)
+        for row in range(panel.poses.count()):
+            panel.poses.setCurrentRow(row)
+            QApplication.processEvents()
+            for label in panel.findChildren(WrappedLabel):
+                if label.isVisible():
+                    assert label.height() >= label.heightForWidth(label.width()), (width, label.text())
