@@ -84,8 +84,10 @@ def _planned(gltf: GltfFile, scene: Scene) -> list[_Plan]:
         attributes = gltf.part(plan.primitive, "attributes")
         if "POSITION" not in attributes:
             raise gltf.fail(f"mesh “{plan.title}” has no positions; export the file again.")
-        vertices += gltf.count(attributes["POSITION"])
-        corners += gltf.count(plan.primitive["indices"]) if "indices" in plan.primitive else 0
+        count = gltf.count(attributes["POSITION"])
+        used = gltf.count(plan.primitive["indices"]) if "indices" in plan.primitive else count
+        vertices += min(count, used)  # what no triangle uses is not kept
+        corners += used if "indices" in plan.primitive else 0
         shapes |= set(plan.names)
     if not shapes:
         raise gltf.fail("it has no morph targets (blendshapes); export the face with shape keys.")
@@ -115,13 +117,14 @@ def _without_scaffold(gltf: GltfFile, plans: list[_Plan]) -> list[_Plan]:
 
 @dataclass
 class _Patch:
-    """One primitive, in the scene's space."""
+    """One primitive, in the scene's space; of its deltas only those of the vertices in `used`."""
 
     title: str
     positions: Floats
     triangles: NDArray[np.uint32]
     normals: Floats
     colours: Floats
+    used: NDArray[np.intp]
     deltas: dict[str, Floats] = field(default_factory=dict)
     material: Material | None = None
     texcoords: Floats | None = None
@@ -219,10 +222,11 @@ def _patch(gltf: GltfFile, scene: Scene, plan: _Plan, step: Steps) -> _Patch:
     if "NORMAL" in attributes:
         normals = gltf.read(attributes["NORMAL"], "VEC3").astype(np.float32)
         normals = _unit(_move(np.linalg.pinv(place[..., :3, :3]).swapaxes(-1, -2), normals, 0))
-    patch = _Patch(title, positions, triangles, normals, np.ones((count, 4), np.float32))
+    patch = _Patch(title, positions, triangles, normals, np.ones((count, 4), np.float32), np.unique(triangles))
     for name, target in zip(plan.names, targets, strict=True):
         if "POSITION" in target:
-            patch.deltas[name] = _move(place, gltf.read(target["POSITION"], "VEC3").astype(np.float32), 0)
+            delta = _move(place, gltf.read(target["POSITION"], "VEC3").astype(np.float32), 0)
+            patch.deltas[name] = delta if len(patch.used) == count else delta[patch.used]
         step()
     step()
     return patch
@@ -236,8 +240,21 @@ def _dress(gltf: GltfFile, patches: list[_Patch], plans: list[_Plan], step: Step
         surface = materials.of(plan.primitive, plan.title, len(patch.positions), patch.triangles)
         patch.triangles, patch.colours = patch.triangles[surface.shown], surface.colours
         patch.material, patch.texcoords = surface.material, surface.texcoords
+        _forget_unused(patch)
         step()
     return materials.album.textures()
+
+
+def _forget_unused(patch: _Patch) -> None:
+    """Keep the vertices in `used` alone: VRM avatars have one set for all primitives of a mesh."""
+    used = patch.used
+    if len(used) == len(patch.positions):
+        return
+    number = np.zeros(len(patch.positions), np.uint32)
+    number[used] = np.arange(len(used), dtype=np.uint32)
+    patch.triangles = number[patch.triangles]
+    patch.positions, patch.normals, patch.colours = patch.positions[used], patch.normals[used], patch.colours[used]
+    patch.texcoords = None if patch.texcoords is None else patch.texcoords[used]
 
 
 def _same_counts(gltf: GltfFile, title: str, count: int, attributes: Json, targets: list[Json]) -> None:

@@ -40,6 +40,23 @@ def test_names_on_the_primitive(tmp_path):
     assert read(tmp_path, gltf).shapes == ("up",)
 
 
+def test_primitives_that_share_all_vertices_keep_their_own(tmp_path, monkeypatch):
+    gltf = tetrahedron()
+    first = gltf.primitive()
+    corners = ([0, 2, 1], [1, 2, 3])
+    gltf.mesh()["primitives"] = [
+        first | {"indices": gltf.accessor(np.array(own, np.uint16)[:, None])} for own in corners
+    ]
+    monkeypatch.setattr(glb, "MAX_VERTICES", 6)
+    face = read(tmp_path, gltf)
+    points = tetrahedron().points()
+    for (start, count), own in zip(face.parts.values(), corners, strict=True):
+        mine = face.triangles[start : start + count].ravel()
+        np.testing.assert_allclose(face.positions[mine], points[own])
+        np.testing.assert_allclose(face.deltas[0][mine, 1], [0, 0, float(own[2] == 3)])
+    assert len(face.positions) == 6
+
+
 @pytest.mark.parametrize("key", ["extra", "extras"])
 def test_names_on_the_targets_themselves(tmp_path, key):
     gltf = tetrahedron()
