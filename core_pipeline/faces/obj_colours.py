@@ -5,6 +5,8 @@ Teeth and eyes in the colour of skin could not be read, and the clear shells bef
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -25,14 +27,17 @@ _BY_NAME: tuple[tuple[tuple[str, ...], Colour], ...] = (
     (("iris",), (0.10, 0.16, 0.22, 0.8)),
     (("lash", "brow", "hair", "beard"), (0.06, 0.04, 0.03, 0.3)),
     (("sclera", "eyeball", "eyewhite"), (0.82, 0.80, 0.78, 0.8)),
-    (("eyeleft", "eyeright", "eye_l", "eye_r", "lefteye", "righteye"), (0.82, 0.80, 0.78, 0.8)),
+    (("eyeleft", "eyeright", "lefteye", "righteye"), (0.82, 0.80, 0.78, 0.8)),
 )
+#: A part called an eye and nothing more, of whatever side: "helper-l-eye", "CC_Base_Eye", "Eye_L"; not a lid.
+_EYE = re.compile(r"(?<![^\W_])eyes?(?=$|\s|[_.-](?:l|r|left|right|\d+)(?![^\W_]))")
 
 
 def named_colour(name: str) -> Colour | None:
     """What a part's name suggests; None when it suggests nothing. Fourth place below 0: not to be seen."""
     plain = name.casefold()
-    return next((colour for words, colour in _BY_NAME if any(word in plain for word in words)), None)
+    told = next((colour for words, colour in _BY_NAME if any(word in plain for word in words)), None)
+    return told or (_BY_NAME[-1][1] if _EYE.search(plain) else None)
 
 
 def linear(colours: NDArray[np.float64]) -> Floats:

@@ -6,7 +6,7 @@ import pytest
 from core_pipeline.errors import UserError
 from core_pipeline.faces import obj_file, obj_folder
 from core_pipeline.faces.limits import MAX_TEXT
-from core_pipeline.faces.obj_colours import SKIN
+from core_pipeline.faces.obj_colours import SKIN, named_colour
 from core_pipeline.faces.obj_folder import read_obj_folder
 from core_pipeline.faces.scaffold import LEFT_OUT
 from tests.helpers.rigs import as_objs, head
@@ -188,6 +188,18 @@ def test_parts_take_the_colour_their_names_suggest(tmp_path):
     face = parts(tmp_path, "g head\nusemtl M_Face", "g mouth\nusemtl M_Teeth")
     np.testing.assert_allclose(face.colours[:3], [SKIN] * 3)
     assert (face.colours[3:, :3].min(axis=1) > 0.6).all(), "teeth are light"
+
+
+@pytest.mark.parametrize("name", ["helper-l-eye", "CC_Base_Eye", "Eyes", "Eye_L", "Eye.001", "eye_right", "EyeLeft"])
+def test_an_eye_is_white(name):
+    colour = named_colour(f"{name} Material")
+    assert colour is not None
+    assert min(colour[:3]) > 0.6
+
+
+@pytest.mark.parametrize("name", ["Eye_Lid_L", "eyeSocket", "keyes", "Eye_Shadow", "Eyelids", "body"])
+def test_what_is_round_an_eye_is_not(name):
+    assert named_colour(name) is None
 
 
 def test_clear_shells_before_the_eyes_are_left_out(tmp_path):
