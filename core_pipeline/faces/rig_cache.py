@@ -22,7 +22,7 @@ from core_pipeline.faces.limits import MAX_FILE
 from core_pipeline.faces.texture import Material, Texture
 from core_pipeline.files.atomic import write_atomically
 
-FORMAT = "lipstitch-rig-cache.3"
+FORMAT = "lipstitch-rig-cache.4"
 #: Bytes of all rigs kept; the ones opened longest ago go first.
 MAX_KEPT = 2**30
 
