@@ -30,6 +30,8 @@ _UPSIDE_DOWN = np.diag([1.0, -1.0, 1.0, 1.0])
 #: From -1…1 to 0…1.
 _HALF = np.array([[0.5, 0, 0, 0.5], [0, 0.5, 0, 0.5], [0, 0, 0.5, 0.5], [0, 0, 0, 1]])
 _SOFTWARE = ("llvmpipe", "softpipe", "swiftshader", "swrast", "software", "gdi generic")
+#: A step on the way to the light behind, in halves of what is seen from home.
+_RIM_STEP = 0.04
 #: Alpha from which on a soft part is there where a pixel has but one sample.
 _HALF_THERE = 0.45
 #: A larger picture has hard edges: smooth ones would take half a gigabyte.
@@ -44,6 +46,7 @@ class _Standing:
     projection: Matrix
     to_light: Matrix  # from the camera's space
     lift: float
+    seen: float  # half of what is seen of the mesh's space from its home: about half a head
     key_from: NDArray[np.float64]
     shadow: ShadowMap
     look: Look
@@ -123,7 +126,8 @@ class FaceGL(Renderer):  # type: ignore[misc]
         GL.glDisable(GL.GL_CULL_FACE)
         GL.glDisable(GL.GL_CLIP_DISTANCE0)
         lift = SHADOW_OFFSET * reach
-        self._standing.append(_Standing(place, projection, to_light, lift, key_from, shadow, look))
+        seen = view.home.distance * math.tan(math.radians(view.home.fov) / 2.0)
+        self._standing.append(_Standing(place, projection, to_light, lift, seen, key_from, shadow, look))
 
     def forget(self, but: Collection[Face]) -> None:
         """Free the meshes of all other faces."""
@@ -207,7 +211,13 @@ class FaceGL(Renderer):  # type: ignore[misc]
         program.vector("deeper", 2.0 * to_light[:, 2])
         program.matrix("lift", 0.5 * standing.lift * standing.to_light[:3, :3])
         program.vector("spread", (1.0 / projection[0, 0], 1.0 / projection[1, 1]))
+        x, y, width, height = (self._finer * side for side in standing.place)
+        program.vector("bounds", (x, y, x + width - 1, y + height - 1))
+        program.vector("depth_of", (-projection[2, 2], -projection[2, 3]))
         light, background = standing.look.light, standing.look.background
+        step = _RIM_STEP * standing.seen * _unit(light.rim_from)
+        pixels = 0.5 * step[:2] * (projection[0, 0] * width, projection[1, 1] * height)
+        program.vector("to_rim", (*pixels, -step[2]))
         for name, three in (
             ("key_from", standing.key_from),
             ("rim_from", _unit(light.rim_from)),

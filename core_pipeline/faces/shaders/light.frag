@@ -16,6 +16,9 @@ uniform vec3 key;        // linear RGB of each light
 uniform vec3 sky;
 uniform vec3 bounce;
 uniform vec3 rim_light;
+uniform vec4 bounds;     // of the face's place in the picture: first and last pixel
+uniform vec2 depth_of;   // from -1…1 to the distance from the camera: y / (x - depth)
+uniform vec3 to_rim;     // a step towards the light behind: pixels across and down at distance 1, and away from the camera
 
 out vec4 pixel;
 
@@ -27,6 +30,19 @@ float arriving(vec3 p) {
     p.z -= BIAS;
     return 0.25 * (texture(shadow, p + vec3(0.38, 0.92, 0.0) * PENUMBRA) + texture(shadow, p + vec3(-0.92, 0.38, 0.0) * PENUMBRA)
                  + texture(shadow, p - vec3(0.38, 0.92, 0.0) * PENUMBRA) + texture(shadow, p - vec3(-0.92, 0.38, 0.0) * PENUMBRA));
+}
+
+// How far a pixel's surface is from the camera.
+float away(ivec2 spot) {
+    return depth_of.y / (depth_of.x - (texelFetch(depths, spot, 0).r * 2.0 - 1.0));
+}
+
+// How far the way to the light behind is free `steps` on, 0…1: whether it goes behind what is seen there. Else that
+// light would shine in mouths, and through hair.
+float passing(vec2 here, float from, float steps) {
+    vec2 spot = clamp(here + to_rim.xy * (steps / from), bounds.xy, bounds.zw);
+    float behind = from + to_rim.z * steps - away(ivec2(spot));
+    return 1.0 - clamp(behind / to_rim.z, 0.0, 1.0);
 }
 
 void main() {
@@ -56,7 +72,9 @@ void main() {
     edge *= edge;
     float behind = clamp(dot(n, rim_from) * 1.25 + 0.25, 0.0, 1.0);
     // White would turn blue; and teeth have it from behind only because no shadow map keeps the rim out.
-    vec3 rim = rim_light * (edge * behind * (0.3 + 0.7 * flesh));
+    float from = away(here);
+    float past = min(passing(gl_FragCoord.xy, from, 1.0), passing(gl_FragCoord.xy, from, 3.0));
+    vec3 rim = rim_light * (edge * behind * past * (0.3 + 0.7 * flesh));
 
     // Blinn-Phong with the energy kept: a glossy spot is small and bright, a dull one wide and faint.
     float hardness = exp2(2.5 + 7.0 * gloss);

@@ -129,6 +129,25 @@ def test_what_is_in_the_way_of_the_key_light_casts_a_shadow_to_the_lower_right()
     assert darker.sum() > 80
 
 
+def test_the_light_from_behind_does_not_pass_behind_what_is_seen():
+    """A wall just beyond the right edge of the ball, nearer to us, keeps the light behind it from that edge."""
+    count = len(BALL.positions)
+    corner = np.array([(0.93, -1, 0.6), (2, -1, 0.6), (2, 1, 0.6), (0.93, 1, 0.6)], np.float32)
+    walled = replace(
+        BALL,
+        positions=np.concatenate([BALL.positions, corner]),
+        normals=np.concatenate([BALL.normals, np.tile(np.float32([0, 0, 1]), (4, 1))]),
+        triangles=np.concatenate([BALL.triangles, np.uint32([(0, 1, 2), (0, 2, 3)]) + np.uint32(count)]),
+        colours=np.concatenate([BALL.colours, np.tile(np.float32(GREY), (4, 1))]),
+        deltas=np.concatenate([BALL.deltas, np.zeros((2, 4, 3), np.float32)], axis=1),
+        normal_deltas=np.concatenate([BALL.normal_deltas, np.zeros((2, 4, 3), np.float32)], axis=1),
+    )
+    free, kept = drawn(BALL), drawn(walled)
+    edge = np.s_[38:50, 83:86]  # the ball ends at column 86
+    assert kept[edge].sum() < 0.75 * free[edge].sum()
+    np.testing.assert_array_equal(kept[30:66, 30:66], free[30:66, 30:66])
+
+
 def test_in_motion_a_shadow_may_be_two_pictures_old_but_never_in_full_quality_or_another_view():
     face = plates((0, 0, 0, 0.95, GREY), (-0.3, 0.4, 0.4, 0.2, GREY))
     face.deltas[0, 4:, 0] = 9.0  # shape `tall` takes away what casts the shadow
