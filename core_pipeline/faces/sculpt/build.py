@@ -30,8 +30,12 @@ from core_pipeline.faces.sculpt.trimmings import body, brows, ears
 INNARDS = ("skin", "mouth", "lips", "teeth", "gums", "tongue", "eye", "glint")
 UNSHADED = ("mouth", "lips", "teeth", "gums", "tongue", "eye", "glint", "lid", "lash")
 #: What shows no inner side to the front: bodies, tubes whose open ends lie within others, and lashes of two sides.
-CLOSED = (*INNARDS, "lid", "lash", "brow", "hair", "ear", "neck", "collar", "shirt", "arm", "leg", "claw")
-CLOSED += ("finger", "spike", "spot", "stalk")
+CLOSED: tuple[str, ...] = (*INNARDS, "lid", "lash", "brow", "hair", "ear", "neck", "collar", "shirt")
+CLOSED += ("arm", "leg", "claw", "finger", "spike", "spot", "stalk")
+#: How parts hide each other, from the front: what is drawn behind something drawn before costs no shading.
+FRONT_FIRST: tuple[str, ...] = ("lash", "brow", "ear", "claw", "finger", "arm", "spike", "spot", "lid", "hair", "skin")
+FRONT_FIRST += ("leg", "collar", "shirt", "neck", "lips", "glint", "eye", "stalk", "teeth", "gums", "tongue", "mouth")
+LAST = "hair_back"
 #: What moves less in every pose, in head radii, stands still for whoever looks.
 STILL = 1e-3
 FLESH = np.array([0.8, 1.1, 1.2])  # shade on skin is warm
@@ -103,7 +107,8 @@ def _worth_keeping(
     positions: Colours, triangles: NDArray[np.uint32], deltas: Colours, parts: Mapping[str, tuple[int, int]]
 ) -> NDArray[np.bool_]:
     """(m,) bool: what moves, what can be seen from outside at rest or in a wild mixture of poses, and the innards."""
-    still = ~(np.abs(deltas) > STILL).any(axis=(0, 2))[triangles].any(axis=1)
+    moves = np.abs(deltas).max(axis=(0, 2)) > STILL
+    still: NDArray[np.bool_] = np.logical_not(moves[triangles].any(axis=1))
     for name, (first, count) in parts.items():
         if name.startswith(INNARDS):
             still[first : first + count] = False
@@ -141,15 +146,20 @@ def _delta(made: list[Piece], shape: str) -> np.ndarray[tuple[int, ...], np.dtyp
     return np.concatenate([piece.poses.get(shape, piece.positions) - piece.positions for piece in made])
 
 
-def _triangles_and_parts(
-    made: list[Piece],
-) -> tuple[np.ndarray[tuple[int, ...], np.dtype[np.uint32]], Mapping[str, tuple[int, int]]]:
-    triangles, parts = [], {}
-    vertices = faces = 0
+def _triangles_and_parts(made: list[Piece]) -> tuple[NDArray[np.uint32], Mapping[str, tuple[int, int]]]:
+    triangles = {}
+    vertices = 0
     for piece in made:
-        triangles.append(piece.triangles + vertices)
         ranges = piece.ranges or {piece.name: (0, len(piece.triangles))}
-        parts.update({name: (faces + first, count) for name, (first, count) in ranges.items()})
+        for name, (first, count) in ranges.items():
+            triangles[name] = piece.triangles[first : first + count] + vertices
         vertices += len(piece.positions)
-        faces += len(piece.triangles)
-    return np.concatenate(triangles).astype(np.uint32), parts
+    names = sorted(triangles, key=_place)
+    starts = np.cumsum([0] + [len(triangles[name]) for name in names])
+    parts = {name: (int(start), len(triangles[name])) for name, start in zip(names, starts, strict=False)}
+    return np.concatenate([triangles[name] for name in names]).astype(np.uint32), parts
+
+
+def _place(name: str) -> int:
+    """Of a part, in the order of drawing."""
+    return len(FRONT_FIRST) if name == LAST else [name.startswith(part) for part in FRONT_FIRST].index(True)

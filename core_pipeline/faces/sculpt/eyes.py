@@ -50,7 +50,13 @@ def _eyeball(character: Character, *, lids: bool) -> Piece:
     white, colour = linear((0.94, 0.925, 0.91)), linear(eyes.iris_colour)
     black = linear((0.03, 0.02, 0.03))
     # (degrees from where it looks, colour): the iris has a dark rim, and is palest half way in
-    rings = [(125, white * 0.45), (100, white * 0.6), (76, white * 0.95), (58, white), (44, white)]
+    rings: list[tuple[float, Array]] = [
+        (125, white * 0.45),
+        (100, white * 0.6),
+        (76, white * 0.95),
+        (58, white),
+        (44, white),
+    ]
     rings += [(iris + 1.0, white * 0.92), (iris, colour * 0.22), (iris - 3.0, colour * 0.62)]
     rings += [
         ((iris + pupil) / 2 + 1.5, colour),

@@ -11,6 +11,8 @@ from core_pipeline.faces.sculpt.piece import Piece, Triangles, fan, grid, linear
 from core_pipeline.faces.sculpt.sdf import Array, Solid, smoothstep
 
 LOCK_ROWS, LOCK_SIDES = 12, 8
+# hair is drawn from front to back in slices so thick; what lies behind a multiple of them, after the face
+SLICE, BEHIND = 0.1, 0.0
 
 
 class Scalp:
@@ -48,7 +50,16 @@ def hair(character: Character, clay: Solid) -> Piece:
     tone = linear(palette.hair) + light * (linear(palette.hair_light) - linear(palette.hair))
     # what lies deep down is dull
     colours = np.column_stack([np.clip(tone, 0, 1), character.hair.gloss * smoothstep(-0.15, 0.25, light)])
-    return Piece("hair", positions, np.concatenate(triangles), colours)
+    ordered, front = _front_first(positions, np.concatenate(triangles))
+    ranges = {"hair": (0, front), "hair_back": (front, len(ordered) - front)}
+    return Piece("hair", positions, ordered, colours, ranges=ranges)
+
+
+def _front_first(positions: Array, triangles: Triangles) -> tuple[Triangles, int]:
+    """The triangles by slices of the head from front to back, and how many of them lie before its sides."""
+    depth = positions[triangles, 2].mean(axis=1)
+    order = np.argsort(np.ceil(-depth / SLICE), kind="stable")
+    return triangles[order], int((depth > BEHIND).sum())
 
 
 def _cap(character: Character, scalp: Scalp) -> tuple[Array, Triangles, Array]:

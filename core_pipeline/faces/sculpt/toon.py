@@ -103,7 +103,7 @@ TOON = Character(
     hair=HAIR,
     rest_tongue=REST,
     mouth=Mouth(smile=0.085, upper=0.052, lower=0.072, upper_depth=0.036, lower_depth=0.042, lap=0.055),
-    teeth=Dentition(half_width=0.325, behind_lips=0.085),
+    teeth=Dentition(half_width=0.325, behind_lips=0.085, sink=0.085),
     eyes=Eyes(radius=0.285, upper=0.61, lower=0.56, iris=33, pupil=17),
     body=Body(middle=-0.20),
     ears=Ears(centre=(0.95, 0.02, -0.06)),
