@@ -174,18 +174,31 @@ class FileActions(QObject):
 
         if not self.attempt(look):
             return False
-        return self._settle(path) if changed else self._write(path)
+        return self._settle(path) if changed else self._write(path, else_elsewhere=True)
 
-    def _write(self, path: Path) -> bool:
-        """Backup and write, beside the window."""
+    def _write(self, path: Path, *, else_elsewhere: bool = False) -> bool:
+        """Backup and write, beside the window; where that fails another place may be offered."""
 
         def write(curve_set: CurveSet, target: Path) -> None:
             in_background(lambda: self.keeper.write(curve_set, target))
 
-        saved = self.attempt(lambda: self.document.save(path, write))
-        if saved:
-            self.keeper.hold(path)
-        return saved
+        try:
+            self.document.save(path, write)
+        except UserError as error:
+            if else_elsewhere:
+                return self._offer_elsewhere(str(error))
+            self.complain(str(error))
+            return False
+        self.keeper.hold(path)
+        return True
+
+    def _offer_elsewhere(self, sentence: str) -> bool:
+        """It could not be saved there: say why, and ask for another place. Whether it was saved there."""
+        box = QMessageBox(QMessageBox.Icon.Warning, self.tr("Not saved"), _plain(sentence), parent=self.window)
+        other = box.addButton(self.tr("Save As…"), QMessageBox.ButtonRole.AcceptRole)
+        box.addButton(_Button.Cancel)
+        box.exec()
+        return box.clickedButton() is other and self.ask_save_as()
 
     def _settle(self, path: Path) -> bool:
         """The file holds what another program wrote: ask what becomes of both. Whether our work is saved now."""

@@ -53,7 +53,8 @@ def write_atomically(path: Path | str, data: bytes | str) -> None:
             return
         target = path.resolve() if path.is_symlink() else path  # a link stays a link
         if target.exists() and not os.access(target, os.W_OK, effective_ids=os.access in os.supports_effective_ids):
-            raise PermissionError(errno.EACCES, "read-only file")  # a rename would not mind
+            told = "the file is read-only; make it writable (check it out) or choose another place"
+            raise OSError(errno.ENOTSUP, told)  # a rename would not mind
         handle, temporary = tempfile.mkstemp(prefix=f".{target.name[:40]}.", suffix=".tmp", dir=target.parent)
         with os.fdopen(handle, "wb") as file:
             file.write(raw)

@@ -197,8 +197,8 @@ def test_a_vanished_folder_is_said_and_the_work_is_in_the_journal(
     path.unlink()
     folder.rmdir()
     said: list[str] = []
-    monkeypatch.setattr(QMessageBox, "warning", lambda _parent, _title, text: said.append(text))
     edit(files)
+    press("Cancel", said)
     assert not files.save()
     assert "there is no such file or folder" in said[0]
     assert files.document.is_dirty
@@ -207,6 +207,23 @@ def test_a_vanished_folder_is_said_and_the_work_is_in_the_journal(
     kept = journal.read(files.autosave.journal)
     assert kept.path == path
     assert kept.curve_set.bigrams[F_AH].curves["W"].same_as(HIGH)
+
+
+def test_what_cannot_be_saved_there_is_saved_elsewhere_when_the_user_likes(
+    tmp_path: Path, files: FileActions, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder, other = tmp_path / "shots", tmp_path / "other.json"
+    folder.mkdir()
+    files.document.save(folder / "hero.json")
+    (folder / "hero.json").unlink()
+    folder.rmdir()
+    said: list[str] = []
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(other), ""))
+    edit(files)
+    press("Save As…", said)
+    assert files.save()
+    assert files.document.path == other
+    assert curve_set_json.load(other).bigrams[F_AH].curves["W"].same_as(HIGH)
 
 
 LIMITED = """

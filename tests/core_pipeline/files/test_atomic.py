@@ -120,7 +120,8 @@ def test_a_read_only_file_or_folder_is_left_alone(tmp_path: Path) -> None:
     file = tmp_path / "set.json"
     file.write_text(OLD)
     file.chmod(0o444)
-    assert "you have no permission there; choose another place" in run(AS_A_STRANGER, file)
+    told = "the file is read-only; make it writable (check it out) or choose another place"
+    assert told in run(AS_A_STRANGER, file)
     assert file.read_text() == OLD
     file.chmod(0o666)
     tmp_path.chmod(0o555)
