@@ -118,7 +118,8 @@ class FacePicker(QFrame):
             item = QListWidgetItem(pictures.get(choice.key) or _blank(choice.title), choice.title)
             item.setData(Qt.ItemDataRole.UserRole, choice.key)
             item.setData(_LISTED, choice.listed)
-            item.setToolTip(choice.about or choice.title)
+            hint = self.tr("Del takes it off this list") if choice.listed else ""
+            item.setToolTip("\n".join(filter(None, (choice.about or choice.title, hint))))
             item.setData(Qt.ItemDataRole.AccessibleTextRole, f"{choice.title}. {choice.about}")
             self.faces.addItem(item)
             if choice.key == current:
