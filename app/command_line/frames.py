@@ -14,8 +14,8 @@ from PIL import Image
 from core_pipeline.faces import idle
 from core_pipeline.faces.face import Face
 from core_pipeline.faces.looks import TURN_SECONDS, Angle, Look
-from core_pipeline.faces.render import Figure, Pixels, Renderer
-from core_pipeline.faces.render_context import Platform
+from core_pipeline.faces.render.context import Platform
+from core_pipeline.faces.render.renderer import Figure, Pixels, Renderer
 from core_pipeline.faces.view import View
 from core_pipeline.files.atomic import write_atomically
 

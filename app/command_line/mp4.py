@@ -10,7 +10,7 @@ from types import TracebackType
 from typing import IO, Self
 
 from core_pipeline.errors import UserError
-from core_pipeline.faces.render import Pixels
+from core_pipeline.faces.render.renderer import Pixels
 from core_pipeline.files.atomic import reason
 from core_pipeline.files.json_text import shown
 from core_pipeline.speech.utterance import Audio

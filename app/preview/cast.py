@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from core_pipeline.faces import idle
 from core_pipeline.faces.face import Face
 from core_pipeline.faces.looks import Angle
-from core_pipeline.faces.render import Figure
+from core_pipeline.faces.render.renderer import Figure
 from core_pipeline.faces.view import View, places
 from core_pipeline.phonemes import Pair
 

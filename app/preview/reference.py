@@ -12,7 +12,7 @@ from core_pipeline.errors import UserError
 from core_pipeline.faces import face_folder
 from core_pipeline.faces.face import Face
 from core_pipeline.faces.looks import ANGLES
-from core_pipeline.faces.render import Figure
+from core_pipeline.faces.render.renderer import Figure
 from core_pipeline.faces.view import View
 
 from .. import resources

@@ -12,8 +12,8 @@ from PySide6.QtGui import QImage
 
 from core_pipeline.errors import UserError
 from core_pipeline.faces.looks import Look
-from core_pipeline.faces.render import Figure, Renderer
-from core_pipeline.faces.render_context import Platform
+from core_pipeline.faces.render.context import Platform
+from core_pipeline.faces.render.renderer import Figure, Renderer
 
 from .gl_platform import make_platform
 from .pace import Pace

@@ -13,9 +13,10 @@ import numpy as np
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QImage
 
+from core_pipeline import faces
 from core_pipeline.errors import UserError
-from core_pipeline.faces import render, rig_cache
-from core_pipeline.faces.render import Figure, Renderer
+from core_pipeline.faces.render.renderer import Figure, Renderer
+from core_pipeline.faces.rigs import rig_cache
 from core_pipeline.faces.view import View
 from core_pipeline.files.atomic import write_atomically
 
@@ -119,8 +120,8 @@ def _files(path: Path) -> Iterator[Path]:
 @cache
 def _looks() -> bytes:
     """Of what reads and draws faces: another renderer makes other portraits of the same files."""
-    digest, ours = hashlib.sha256(), Path(render.__file__).parent
-    for file in sorted((*ours.glob("*.py"), *ours.glob("shaders/*"), Path(__file__))):
+    digest, ours = hashlib.sha256(), Path(faces.__file__).parent
+    for file in sorted((*ours.glob("*.py"), *ours.glob("r*/*.py"), *ours.glob("render/shaders/*"), Path(__file__))):
         digest.update(file.read_bytes())
     return digest.digest()
 

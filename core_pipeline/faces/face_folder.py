@@ -11,8 +11,8 @@ import numpy as np
 
 from core_pipeline.errors import UserError
 from core_pipeline.faces.face import Camera, Face
-from core_pipeline.faces.glb import read_glb
-from core_pipeline.faces.glb_write import write_glb
+from core_pipeline.faces.rigs.glb import read_glb
+from core_pipeline.faces.rigs.glb_write import write_glb
 from core_pipeline.faces.texture import Material
 
 FORMAT = "lipstitch-face.1"

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..faces.gltf_file import GltfFile
+from ..faces.rigs.gltf_file import GltfFile
 from .capture import Capture
 
 Array = NDArray[np.float64]

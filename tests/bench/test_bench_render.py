@@ -11,8 +11,8 @@ import pytest
 
 from app import resources
 from core_pipeline.faces import face_folder
-from core_pipeline.faces.blend import Blend
-from core_pipeline.faces.render import Figure, Renderer
+from core_pipeline.faces.render.blend import Blend
+from core_pipeline.faces.render.renderer import Figure, Renderer
 from core_pipeline.faces.texture import Material, Texture
 from core_pipeline.faces.view import View
 from tests.helpers.ball import ball

@@ -15,7 +15,7 @@ from pytestqt.qtbot import QtBot
 from app import resources
 from app.editor import Editor
 from core_pipeline.curve_set import CurveSet
-from core_pipeline.faces.render import Figure
+from core_pipeline.faces.render.renderer import Figure
 from core_pipeline.files import curve_set_json
 from core_pipeline.pipeline import Stages
 from core_pipeline.settings import Settings

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from core_pipeline.faces.face import Face
-from core_pipeline.faces.glb_write import write_glb
 from core_pipeline.faces.mapping_json import load_presets
+from core_pipeline.faces.rigs.glb_write import write_glb
 from tests.helpers.ball import ball
 
 PRESETS = load_presets(Path(__file__).resolve().parents[2] / "assets" / "retarget")

@@ -9,8 +9,8 @@ from PySide6.QtGui import QImage
 
 from app.preview.gl_platform import QtPlatform, make_platform
 from app.preview.render_worker import RenderWorker
-from core_pipeline.faces.render import FaceRenderer, Figure
-from core_pipeline.faces.render_context import process_context
+from core_pipeline.faces.render.context import process_context
+from core_pipeline.faces.render.renderer import FaceRenderer, Figure
 from core_pipeline.faces.view import View
 from tests.helpers.ball import ball
 
