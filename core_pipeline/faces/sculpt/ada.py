@@ -174,7 +174,7 @@ ADA = Character(
     camera=Camera(target=(0.0, 0.02, 0.0), distance=6.9, yaw=0.0, pitch=0.0, fov=24.0),
     middle=(0.0, -0.34, 0.0),
     nose=(0.0, -0.14, 0.90),
-    nostrils=(0.042, -0.205, 0.88),
+    nostrils=(0.048, -0.196, 0.868),
     lip_columns=96,
     density=1.85,
     sky=0.85,

@@ -80,7 +80,7 @@ def ears(character: Character) -> list[Piece]:
     points = np.stack([x, y, z], -1) + np.array(shape.centre)
     palette = character.palette
     colours = paint(len(points), palette.skin, 0.35)
-    depth = np.repeat([0.40, 0.44, 0.58, 0.92, 0.78, 1.0, 1.0, 0.95, 0.80, 0.62, 0.55], EAR_AROUND)
+    depth = np.repeat([0.40, 0.44, 0.58, 0.92, 0.78, 1.0, 0.95, 0.80, 0.66, 0.55, 0.50], EAR_AROUND)
     warm = 0.35 * np.repeat([1, 1, 0.8, 0.5, 0.4, 0.4, 0.3, 0.2, 0.1, 0, 0], EAR_AROUND)[:, None]
     colours[:, :3] += warm * (linear(palette.blush) - colours[:, :3])
     colours[:, :3] *= depth[:, None] ** np.array([0.8, 1.1, 1.2])

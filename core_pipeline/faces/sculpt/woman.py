@@ -56,7 +56,7 @@ HAIR = Hair(
                 ((0.00, 0.96, -0.80), (0.00, 0.76, -1.00), (0.00, 0.30, -1.14), (0.00, -0.25, -1.10),
                  (0.00, -0.85, -0.98), (0.00, -1.38, -0.76)),
             ),
-            thickness=0.10, clumps=19, columns=58, rows=14, edge=0.05, relief=0.42, streaks=0.16,
+            thickness=0.10, clumps=19, columns=58, rows=13, edge=0.05, relief=0.42, streaks=0.16,
             wave=0.045, mirrored=False,
         ),
         Sheet(  # curtains of a fringe, from the parting to the temples
@@ -102,7 +102,7 @@ WOMAN = Character(
     camera=Camera(target=(0.0, -0.05, 0.0), distance=6.9, yaw=0.0, pitch=0.0, fov=24.0),
     middle=(0.0, -0.34, 0.0),
     nose=(0.0, -0.12, 0.89),
-    nostrils=(0.038, -0.178, 0.875),
+    nostrils=(0.042, -0.188, 0.865),
     lip_columns=64,
     density=1.06,
     sky=0.75,
