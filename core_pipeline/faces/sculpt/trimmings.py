@@ -119,6 +119,8 @@ def _neck(character: Character, clay: Solid, turn: Array) -> Piece:
     neck = _lathe(turn, heights, radii, 1.0, shape.middle)
     # it leans back under the head, out of the way of the mouth
     neck[:, 2] -= 0.08 * smoothstep(-0.95, -0.5, neck[:, 1]) + 0.12 * smoothstep(-0.6, -0.2, neck[:, 1])
+    before = np.tile(np.clip(np.cos(turn), 0, None), len(heights)) * np.repeat(radii, NECK_AROUND)
+    neck[:, 2] -= 0.6 * before * smoothstep(-0.80, -0.55, neck[:, 1])
     # and its upper end goes into the nape
     sunk = np.clip(clay.distance(neck) + 0.03, 0, None) * smoothstep(-0.60, -0.30, neck[:, 1])
     neck = neck - sunk[:, None] * clay.gradient(neck)
