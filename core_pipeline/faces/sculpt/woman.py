@@ -24,6 +24,7 @@ CLAY = (
     Blob((0.29, -0.30, 0.43), (0.24, 0.23, 0.25), 0.20, mirrored=True),  # cheeks
     Blob((0.21, -0.50, 0.30), (0.20, 0.18, 0.26), 0.26, mirrored=True),  # corners of the jaw
     Blob((0, -0.42, 0.55), (0.27, 0.24, 0.26), 0.20),  # the round under nose and lips
+    Blob((0.12, -0.63, 0.44), (0.15, 0.13, 0.19), 0.24, mirrored=True),  # from them to the chin
     Blob((0, -0.69, 0.585), (0.16, 0.13, 0.17), 0.24),  # chin
     Blob((0.26, 0.37, 0.58), (0.22, 0.06, 0.10), 0.14, mirrored=True),  # brow
     Blob((0.32, 0.16, 0.885), (0.15, 0.115, 0.155), 0.13, mirrored=True, carve=True),  # eye sockets
