@@ -49,7 +49,7 @@ def hair(character: Character, clay: Solid) -> Piece:
     palette = character.palette
     tone = linear(palette.hair) + light * (linear(palette.hair_light) - linear(palette.hair))
     # what lies deep down is dull
-    colours = np.column_stack([np.clip(tone, 0, 1), character.hair.gloss * smoothstep(-0.15, 0.25, light)])
+    colours = np.column_stack([np.clip(tone, 0, 1), character.hair.gloss * smoothstep(0.0, 0.25, light)])
     ordered, front = _front_first(positions, np.concatenate(triangles))
     ranges = {"hair": (0, front), "hair_back": (front, len(ordered) - front)}
     return Piece("hair", positions, ordered, colours, ranges=ranges)

@@ -32,7 +32,7 @@ def _build(layer: Sheet, clay: Solid) -> tuple[Array, Triangles, Array]:
     normal /= np.maximum(np.linalg.norm(normal, axis=-1, keepdims=True), 1e-9)
     side = np.clip(np.minimum(across, 1 - across) / layer.edge, 0, 1) if layer.edge else np.ones(layer.columns)
     rim = np.sqrt(1 - (1 - side) ** 2)
-    tip = np.sqrt(np.clip(1 - np.clip((share - 0.72) / 0.28, 0, 1) ** 2, 0, 1))
+    tip = 0.16 + 0.84 * np.sqrt(np.clip(1 - np.clip((share - 0.72) / 0.28, 0, 1) ** 2, 0, 1))
     root = 0.1 + 0.9 * smoothstep(0, 0.2, share)
     combed = smoothstep(0.0, 0.35, share)
     comb = ridge * combed + 0.6 * (1 - combed)
@@ -43,10 +43,13 @@ def _build(layer: Sheet, clay: Solid) -> tuple[Array, Triangles, Array]:
     points = np.concatenate([outer, inner], axis=1)
     light = np.concatenate([_light(layer, number, comb, rim), np.zeros((layer.rows, layer.columns))], axis=1)
     sides = points.shape[1]
-    # the roots' end, which may be seen; the tips run out
+    # the ends, which may be seen
     column = np.arange(layer.columns - 1)
-    across_end = np.stack([column, column + 1, sides - 2 - column, column, sides - 2 - column, sides - 1 - column], -1)
-    triangles = np.concatenate([grid(layer.rows, sides, closed=True)[:, ::-1], across_end.reshape(-1, 3)])
+    roots = np.stack([column, column + 1, sides - 2 - column, column, sides - 2 - column, sides - 1 - column], -1)
+    tips = roots[:, ::-1] + (layer.rows - 1) * sides
+    triangles = np.concatenate(
+        [grid(layer.rows, sides, closed=True)[:, ::-1], roots.reshape(-1, 3), tips.reshape(-1, 3)]
+    )
     return points.reshape(-1, 3), triangles, np.clip(light, 0, 1).ravel()
 
 

@@ -81,7 +81,7 @@ MAN = Character(
     camera=Camera(target=(0.0, -0.06, 0.0), distance=7.4, yaw=0.0, pitch=0.0, fov=24.0),
     middle=(0.0, -0.36, 0.0),
     nose=(0.0, -0.16, 0.94),
-    nostrils=(0.052, -0.225, 0.90),
+    nostrils=(0.062, -0.240, 0.895),
     lip_columns=64,
     density=1.3,
     sky=0.75,

@@ -101,9 +101,15 @@ class Skin:
         # the crease between lid and face is softer than the clay's
         loose = (self._ratio > EYE_RINGS[0] + 0.01) * smoothstep(2.3, 1.5, self._ratio)
         x, y, _ = points.T
-        bridge = smoothstep(0.14, 0.0, np.abs(x)) * smoothstep(0.18, 0.02, y - self.lid.centre[1])
-        pull = (0.5 * loose * (1 - 0.75 * bridge))[:, None]
-        for _ in range(20):
+        height = y - self.lid.centre[1]
+        # the brows lie on the clay as it is
+        line = np.array(self.character.brows.line)
+        loose = loose * smoothstep(-0.01, -0.08, height - np.interp(np.abs(x), line[:, 0], line[:, 1]))
+        bridge = smoothstep(0.14, 0.0, np.abs(x)) * smoothstep(0.18, 0.02, height)
+        # where the bridge of the nose runs out between them
+        between = np.exp(-((x / 0.055) ** 2) - ((height - 0.20) / 0.09) ** 2)
+        pull = (0.5 * np.maximum(loose * (1 - 0.75 * bridge), 0.8 * between))[:, None]
+        for _ in range(40):
             points = points + pull * (self.layout.neighbour_mean(points) - points)
         depth = 0.085 * self.character.eyes.crease * self.character.eyes.radius * self._crease(points)
         away = points - centre
@@ -316,5 +322,5 @@ class Skin:
             away = np.linalg.norm(
                 np.abs(points * (1, 0, 0)) + points * (0, 1, 1) - np.array(self.character.nostrils), axis=1
             )
-            tone *= (1 - 0.85 * np.exp(-((away / 0.03) ** 2)))[:, None] ** np.array([0.75, 1.1, 1.1])
+            tone *= (1 - 0.93 * np.exp(-((away / 0.031) ** 2)))[:, None] ** np.array([0.75, 1.1, 1.1])
         return tone

@@ -80,7 +80,7 @@ def ears(character: Character) -> list[Piece]:
     points = np.stack([x, y, z], -1) + np.array(shape.centre)
     palette = character.palette
     colours = paint(len(points), palette.skin, 0.35)
-    depth = np.repeat([0.40, 0.44, 0.58, 0.92, 0.78, 1.0, 1.0, 0.95, 0.80, 0.62, 0.55], EAR_AROUND)
+    depth = np.repeat([0.40, 0.44, 0.58, 0.92, 0.78, 1.0, 0.95, 0.80, 0.66, 0.55, 0.50], EAR_AROUND)
     warm = 0.35 * np.repeat([1, 1, 0.8, 0.5, 0.4, 0.4, 0.3, 0.2, 0.1, 0, 0], EAR_AROUND)[:, None]
     colours[:, :3] += warm * (linear(palette.blush) - colours[:, :3])
     colours[:, :3] *= depth[:, None] ** np.array([0.8, 1.1, 1.2])
@@ -119,6 +119,8 @@ def _neck(character: Character, clay: Solid, turn: Array) -> Piece:
     neck = _lathe(turn, heights, radii, 1.0, shape.middle)
     # it leans back under the head, out of the way of the mouth
     neck[:, 2] -= 0.08 * smoothstep(-0.95, -0.5, neck[:, 1]) + 0.12 * smoothstep(-0.6, -0.2, neck[:, 1])
+    before = np.tile(np.clip(np.cos(turn), 0, None), len(heights)) * np.repeat(radii, NECK_AROUND)
+    neck[:, 2] -= 0.6 * before * smoothstep(-0.80, -0.55, neck[:, 1])
     # and its upper end goes into the nape
     sunk = np.clip(clay.distance(neck) + 0.03, 0, None) * smoothstep(-0.60, -0.30, neck[:, 1])
     neck = neck - sunk[:, None] * clay.gradient(neck)

@@ -24,6 +24,7 @@ CLAY = (
     Blob((0.29, -0.30, 0.43), (0.24, 0.23, 0.25), 0.20, mirrored=True),  # cheeks
     Blob((0.21, -0.50, 0.30), (0.20, 0.18, 0.26), 0.26, mirrored=True),  # corners of the jaw
     Blob((0, -0.42, 0.55), (0.27, 0.24, 0.26), 0.20),  # the round under nose and lips
+    Blob((0.12, -0.63, 0.44), (0.15, 0.13, 0.19), 0.24, mirrored=True),  # from them to the chin
     Blob((0, -0.69, 0.585), (0.16, 0.13, 0.17), 0.24),  # chin
     Blob((0.26, 0.37, 0.58), (0.22, 0.06, 0.10), 0.14, mirrored=True),  # brow
     Blob((0.32, 0.16, 0.885), (0.15, 0.115, 0.155), 0.13, mirrored=True, carve=True),  # eye sockets
@@ -56,7 +57,7 @@ HAIR = Hair(
                 ((0.00, 0.96, -0.80), (0.00, 0.76, -1.00), (0.00, 0.30, -1.14), (0.00, -0.25, -1.10),
                  (0.00, -0.85, -0.98), (0.00, -1.38, -0.76)),
             ),
-            thickness=0.10, clumps=19, columns=58, rows=14, edge=0.05, relief=0.42, streaks=0.16,
+            thickness=0.10, clumps=19, columns=58, rows=13, edge=0.05, relief=0.42, streaks=0.16,
             wave=0.045, mirrored=False,
         ),
         Sheet(  # curtains of a fringe, from the parting to the temples
@@ -102,7 +103,7 @@ WOMAN = Character(
     camera=Camera(target=(0.0, -0.05, 0.0), distance=6.9, yaw=0.0, pitch=0.0, fov=24.0),
     middle=(0.0, -0.34, 0.0),
     nose=(0.0, -0.12, 0.89),
-    nostrils=(0.038, -0.178, 0.875),
+    nostrils=(0.042, -0.188, 0.865),
     lip_columns=64,
     density=1.06,
     sky=0.75,

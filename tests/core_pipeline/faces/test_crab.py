@@ -189,9 +189,8 @@ def test_claws_eyes_and_legs_stay_inside_the_picture(yaw, shape):
 
 def test_the_shell_is_closed_all_round():
     """Every edge has two faces: no hole at the back, no gap round the lips."""
-    first, _ = FACE.parts["mouth"]
-    start, count = FACE.parts["skin"]
-    faces = FACE.triangles[first : start + count]
+    ranges = [FACE.parts[name] for name in ("mouth", "lips", "skin")]
+    faces = np.concatenate([FACE.triangles[first : first + count] for first, count in ranges])
     edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
     _, times = np.unique(np.sort(edges, axis=1), axis=0, return_counts=True)
     assert set(times) == {2}

@@ -13,7 +13,7 @@ from tests.helpers.lip_sections import lip_gap_and_overlap, lip_sections
 from tests.helpers.zbuffer import deformed, seen, visible_triangles
 
 INSIDE = ("teeth_upper", "teeth_lower", "gums_upper", "gums_lower", "tongue", "mouth")
-OUTSIDE = {"skin", "neck", "lips", "hair"}
+OUTSIDE = {"skin", "neck", "lips", "hair", "hair_back"}
 VIEWS = ((0, 0), (35, 0), (-35, 0), (0, 15), (0, -15))
 # one pixel in 220 × 220 may fall between two triangles
 STRAY = 2

@@ -59,7 +59,7 @@ def test_only_from_the_front_and_from_outside(yaw, distance, hidden):
     assert InnerSides(BALL).hidden_from(View(yaw=yaw, distance=distance).matrix()) == hidden
 
 
-@pytest.mark.parametrize("name", ["toon", "crab", "ada"])
+@pytest.mark.parametrize("name", ["toon", "crab", "ada", "woman", "man"])
 def test_what_is_left_out_of_our_faces_cannot_be_seen(name, monkeypatch):
     face = face_folder.load(resources.face_folder(name))
     amounts = np.zeros(len(face.shapes))

@@ -10,7 +10,7 @@ from core_pipeline.faces.sculpt.hair_sheet import sheet
 from core_pipeline.faces.sculpt.hidden import never_seen
 from core_pipeline.faces.sculpt.raster import fragments, looking_along, nearest
 from core_pipeline.faces.sculpt.sdf import Blob, Solid
-from tests.helpers.zbuffer import deformed, visible_triangles
+from tests.helpers.zbuffer import deformed, seen, visible_triangles
 
 BALL = Solid((Blob((0, 0, 0), (1, 1, 1), 0.1),))
 CUBE = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
@@ -78,8 +78,8 @@ def test_nothing_that_faces_the_other_way_is_seen_from_in_front(character):
     corners = deformed(face, {})[face.triangles]
     towards = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     shown = visible_triangles(face, {}, (0.0, -0.1, 0.0), half=1.6)
-    seen, pixels = np.unique(shown[shown >= 0], return_counts=True)
-    inner = pixels[towards[seen, 2] < 0].sum()
+    numbers, pixels = np.unique(shown[shown >= 0], return_counts=True)
+    inner = pixels[towards[numbers, 2] < 0].sum()
     assert inner <= 0.002 * pixels.sum()
 
 
@@ -88,8 +88,16 @@ def test_from_behind_there_is_no_way_into_the_head(character):
     face = load(f"assets/faces/{character.name}")
     for yaw in (150, 180, -150):
         shown = visible_triangles(face, {}, (0.0, -0.35, -0.3), yaw, half=0.5)
-        seen = np.unique(shown[shown >= 0])
+        there = np.unique(shown[shown >= 0])
         parts = {
-            name for name, (first, count) in face.parts.items() if ((seen >= first) & (seen < first + count)).any()
+            name for name, (first, count) in face.parts.items() if ((there >= first) & (there < first + count)).any()
         }
         assert parts <= {"skin", "neck", "hair", "hair_back", "ear_right", "ear_left", "collar"}
+
+
+@pytest.mark.parametrize("character", HUMANS, ids=lambda character: character.name)
+def test_the_neck_does_not_stand_in_the_throat(character):
+    face, height = load(f"assets/faces/{character.name}"), character.mouth.height
+    for weights in ({"open": 1}, {"W": 0.7, "open": 0.5}, {"wide": 0.5, "open": 0.5}):
+        for view in ((0, 0), (30, 0), (0, 15)):
+            assert seen(face, weights, (0.0, height - 0.08, 0.75), *view, half=0.2)["neck"] == 0
