@@ -137,13 +137,13 @@ class FaceGL(Renderer):  # type: ignore[misc]
     def finish(self, background: Background) -> NDArray[np.uint8]:
         """(h, w, 4) BGRA, top row first; the same array until the size changes."""
         target = self._target(self._finer)
-        target.light()
         GL.glDepthMask(False)
         GL.glBindVertexArray(self._no_vertices)
+        if target.shows != background:
+            self._draw_backdrop(target, background)
+        target.light()
         for standing in self._standing:
             self._draw_light(standing)
-        GL.glViewport(0, 0, *target.size)
-        self._draw_backdrop(background, min(target.size))
         GL.glBindVertexArray(0)
         GL.glDepthMask(True)
         return self._read(target)
@@ -229,15 +229,18 @@ class FaceGL(Renderer):  # type: ignore[misc]
             program.vector(name, three)
         GL.glDrawArrays(GL.GL_TRIANGLES, 0, 3)
 
-    def _draw_backdrop(self, background: Background, side: int) -> None:
-        """Where no face is."""
-        GL.glDepthFunc(GL.GL_LEQUAL)
+    def _draw_backdrop(self, target: Target, background: Background) -> None:
+        """It is kept: no face changes it."""
+        GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, target.backdrop)
+        GL.glViewport(0, 0, *target.size)
+        GL.glDepthFunc(GL.GL_ALWAYS)
         program = self._programs.use("backdrop", "backdrop")
         program.vector("top", background.top)
         program.vector("bottom", background.bottom)
         program.number("glow", background.glow)
-        program.number("checker", background.checker * side)
+        program.number("checker", background.checker * min(target.size))
         GL.glDrawArrays(GL.GL_TRIANGLES, 0, 3)
+        target.shows = background
 
     def _target(self, finer: int) -> Target:
         if finer not in self._targets:

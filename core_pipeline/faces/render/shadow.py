@@ -76,9 +76,10 @@ def shadow_reach(view: View, radius: float) -> float:
 
 def camera_to_light(view: View, reach: float, key_from: NDArray[np.float64]) -> NDArray[np.float64]:
     """(4, 4) from the camera's space to the shadow map's, -1…1, for a light in the unit direction `key_from`."""
-    right = np.cross((0.0, 1.0, 0.0), key_from)
-    right /= np.linalg.norm(right)
+    x, y, z = key_from.tolist()
+    level = math.hypot(x, z)
+    right, up = (z / level, 0.0, -x / level), (-x * y / level, level, -y * z / level)
     matrix = np.eye(4)
-    matrix[:3, :3] = np.stack([right, np.cross(key_from, right), -key_from]) / reach
+    matrix[:3, :3] = np.array([right, up, (-x, -y, -z)]) / reach
     matrix[:3, 3] = matrix[:3, 2] * view.distance  # the target goes to the middle
     return matrix

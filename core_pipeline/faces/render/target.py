@@ -13,7 +13,12 @@ SURFACES, FACINGS, DEPTHS = 1, 2, 3
 
 
 class Target:
-    """Framebuffers of (width, height). `surfaces`: three textures. `canvas`: the picture, and a copy of the depths."""
+    """Framebuffers of (width, height).
+
+    surfaces  three textures: colours, normals, depths
+    backdrop  what is behind all; `shows` is whatever the one who drew it wrote down
+    canvas    the picture, and a copy of the depths
+    """
 
     def __init__(self, width: int, height: int) -> None:
         self.size = (width, height)
@@ -37,27 +42,22 @@ class Target:
         GL.glDrawBuffers(2, [GL.GL_COLOR_ATTACHMENT0, GL.GL_COLOR_ATTACHMENT1])
         self._check()
 
-        self._buffers = [int(name) for name in GL.glGenRenderbuffers(2)]
-        self.canvas = int(GL.glGenFramebuffers(1))
-        GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, self.canvas)
-        for buffer, (form, place) in zip(
-            self._buffers,
-            ((GL.GL_RGBA8, GL.GL_COLOR_ATTACHMENT0), (GL.GL_DEPTH_COMPONENT24, GL.GL_DEPTH_ATTACHMENT)),
-            strict=True,
-        ):
-            GL.glBindRenderbuffer(GL.GL_RENDERBUFFER, buffer)
-            GL.glRenderbufferStorage(GL.GL_RENDERBUFFER, form, width, height)
-            GL.glFramebufferRenderbuffer(GL.GL_FRAMEBUFFER, place, GL.GL_RENDERBUFFER, buffer)
-        self._check()
+        self.shows: object = None
+        self._buffers: list[int] = []
+        colours = (GL.GL_RGBA8, GL.GL_COLOR_ATTACHMENT0)
+        self.backdrop = self._made(colours)
+        self.canvas = self._made(colours, (GL.GL_DEPTH_COMPONENT24, GL.GL_DEPTH_ATTACHMENT))
 
     def light(self) -> None:
-        """Draw into the canvas from now on, reading the surfaces.
+        """Draw into the canvas from now on, over the backdrop, reading the surfaces.
 
         The depths are copied, as no shader may read those it is tested against.
         """
         whole = (0, 0, *self.size)
-        GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, self.surfaces)
         GL.glBindFramebuffer(GL.GL_DRAW_FRAMEBUFFER, self.canvas)
+        GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, self.backdrop)
+        GL.glBlitFramebuffer(*whole, *whole, GL.GL_COLOR_BUFFER_BIT, GL.GL_NEAREST)
+        GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, self.surfaces)
         GL.glBlitFramebuffer(*whole, *whole, GL.GL_DEPTH_BUFFER_BIT, GL.GL_NEAREST)
         GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, self.canvas)
         for unit, texture in zip((SURFACES, FACINGS, DEPTHS), self._textures, strict=True):
@@ -72,9 +72,22 @@ class Target:
 
     def delete(self) -> None:
         """Free it."""
-        GL.glDeleteFramebuffers(2, [self.surfaces, self.canvas])
+        GL.glDeleteFramebuffers(3, [self.surfaces, self.backdrop, self.canvas])
         GL.glDeleteTextures(self._textures)
-        GL.glDeleteRenderbuffers(2, self._buffers)
+        GL.glDeleteRenderbuffers(len(self._buffers), self._buffers)
+
+    def _made(self, *attachments: tuple[int, int]) -> int:
+        """A framebuffer of buffers of these (format, place)."""
+        framebuffer = int(GL.glGenFramebuffers(1))
+        GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, framebuffer)
+        for form, place in attachments:
+            buffer = int(GL.glGenRenderbuffers(1))
+            self._buffers.append(buffer)
+            GL.glBindRenderbuffer(GL.GL_RENDERBUFFER, buffer)
+            GL.glRenderbufferStorage(GL.GL_RENDERBUFFER, form, *self.size)
+            GL.glFramebufferRenderbuffer(GL.GL_FRAMEBUFFER, place, GL.GL_RENDERBUFFER, buffer)
+        self._check()
+        return framebuffer
 
     def _check(self) -> None:
         if GL.glCheckFramebufferStatus(GL.GL_FRAMEBUFFER) != GL.GL_FRAMEBUFFER_COMPLETE:
