@@ -19,7 +19,7 @@ from .gl_platform import make_platform
 from .pace import Pace
 
 #: A picture that has not changed for this long is drawn again in full quality.
-SETTLE_SECONDS = 0.08
+SETTLE_SECONDS = 0.09
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +35,7 @@ class RenderWorker(QThread):
     """Draws wishes in its own thread. All methods may be called from any thread; construct in the GUI thread.
 
     While wishes keep coming they are drawn fast, in a smaller picture where that takes too long, and one that
-    comes before the last was begun replaces it. When none came for 80 ms, the last is drawn again in its full
+    comes before the last was begun replaces it. When none came for 90 ms, the last is drawn again in its full
     size with smooth edges and exact normals.
     """
 
