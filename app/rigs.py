@@ -16,7 +16,7 @@ from core_pipeline.poses import FACEFX
 from . import resources
 
 if TYPE_CHECKING:
-    from core_pipeline.faces.rigs.open_face import Opened
+    from core_pipeline.faces.open_face import Opened
 
 
 def face_path(face: str | None) -> Path:
@@ -55,8 +55,8 @@ def open_rig(path: Path, poses: Sequence[str] = FACEFX, cancelled: Callable[[], 
     cancelled  asked now and then; True ends it with a UserError
     """
     from core_pipeline.faces.mapping_json import load_presets
+    from core_pipeline.faces.open_face import open_face
     from core_pipeline.faces.rigs import rig_cache
-    from core_pipeline.faces.rigs.open_face import open_face
 
     return open_face(path, load_presets(resources.retarget_presets()), poses, rig_cache.user_cache(), cancelled)
 

@@ -12,8 +12,8 @@ from PySide6.QtCore import QObject, Qt, Signal, Slot
 
 from core_pipeline.errors import UserError
 from core_pipeline.faces.mapping_json import load_presets
+from core_pipeline.faces.open_face import Opened, open_face
 from core_pipeline.faces.rigs import rig_cache
-from core_pipeline.faces.rigs.open_face import Opened, open_face
 
 from .. import resources
 

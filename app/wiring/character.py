@@ -9,8 +9,8 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QFileDialog
 
 from core_pipeline.errors import UserError
+from core_pipeline.faces.open_face import Opened
 from core_pipeline.faces.pose_set import new_curve_set
-from core_pipeline.faces.rigs.open_face import Opened
 
 from .. import resources
 from .company import Company

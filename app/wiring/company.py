@@ -7,7 +7,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
 
-from core_pipeline.faces.rigs.open_face import Opened
+from core_pipeline.faces.open_face import Opened
 from widgets.preview.name_tag import Tag
 
 from ..preview.cast import MOST, Actor, Source

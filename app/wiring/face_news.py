@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QObject
 
-from core_pipeline.faces.rigs.open_face import Opened
+from core_pipeline.faces.open_face import Opened
 
 from .. import resources
 from .character import Character

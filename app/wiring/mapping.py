@@ -13,8 +13,8 @@ from PySide6.QtWidgets import QMessageBox
 from core_pipeline.errors import UserError
 from core_pipeline.faces import retarget
 from core_pipeline.faces.mapping_json import load_presets, save_mapping
+from core_pipeline.faces.open_face import Opened
 from core_pipeline.faces.retarget import OWN_NAMES, Mix, Preset
-from core_pipeline.faces.rigs.open_face import Opened
 from core_pipeline.poses import shown_alone
 from widgets.preview.mapping_panel import REFERENCE
 

@@ -8,10 +8,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from core_pipeline.faces.open_face import open_face
 from core_pipeline.faces.render.blend import Blend
 from core_pipeline.faces.rigs import rig_cache
 from core_pipeline.faces.rigs.album import MAX_BYTES
-from core_pipeline.faces.rigs.open_face import open_face
 from core_pipeline.faces.texture import Material, Texture
 from core_pipeline.poses import FACEFX
 from tests.helpers.budget import within

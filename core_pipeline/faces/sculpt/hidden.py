@@ -11,7 +11,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from core_pipeline.faces.sculpt.raster import fragments, looking_along, nearest
+from core_pipeline.faces.sculpt.raster import directions, fragments, looking_along, nearest
 from core_pipeline.faces.sculpt.sdf import Array
 
 DIRECTIONS = 80
@@ -26,7 +26,7 @@ def never_seen(stages: Sequence[Array], triangles: NDArray[np.integer], asked: N
     asked   (m,) bool: none of the others is called hidden
     """
     seen = ~asked
-    for positions, direction in product(stages, _directions()):
+    for positions, direction in product(stages, directions(DIRECTIONS, 2, 0.321)):
         points = looking_along(positions, direction, SIZE)
         which, pixel, near = fragments(points[triangles], SIZE)
         seen[which[near > nearest(pixel, near, SIZE)[pixel] - TOUCHING]] = True
@@ -35,13 +35,3 @@ def never_seen(stages: Sequence[Array], triangles: NDArray[np.integer], asked: N
     kept[triangles[seen]] = True
     hidden: NDArray[np.bool_] = ~kept[triangles].any(axis=1)
     return hidden
-
-
-def _directions() -> Array:
-    """Evenly over the whole ball: a spiral, turned so that nothing lies on the face's own axes."""
-    step = np.arange(DIRECTIONS) + 0.5
-    up = 1 - 2 * step / DIRECTIONS
-    angle = step * np.pi * (3 - np.sqrt(5)) + 0.321
-    across = np.sqrt(1 - up * up)
-    spread: Array = np.stack([across * np.cos(angle), up, across * np.sin(angle)], -1)
-    return spread

@@ -10,6 +10,19 @@ from core_pipeline.faces.sculpt.sdf import Array
 HALF = 2.0  # half the side of what a picture shows, in head radii
 
 
+def directions(count: int, depth: float, turn: float) -> Array:
+    """(count, 3) evenly over a ball of radius 1 from its top `depth` down, 2 for all of it: a spiral.
+
+    It is turned by `turn` radians, so that nothing lies on the face's own axes.
+    """
+    step = np.arange(count) + 0.5
+    up = 1 - depth * step / count
+    angle = step * np.pi * (3 - np.sqrt(5)) + turn
+    across = np.sqrt(1 - up * up)
+    spread: Array = np.stack([across * np.cos(angle), up, across * np.sin(angle)], -1)
+    return spread
+
+
 def looking_along(positions: Array, direction: Array, size: int) -> Array:
     """(n, 3) pixels to the right and up in a picture of size × size, and nearness to the eye in `direction`."""
     right = np.cross((0.0, 1.0, 0.0), direction)

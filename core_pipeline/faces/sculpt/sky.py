@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from core_pipeline.faces.sculpt.raster import fragments, looking_along, nearest
+from core_pipeline.faces.sculpt.raster import directions, fragments, looking_along, nearest
 from core_pipeline.faces.sculpt.sdf import Array, smoothstep
 
 DIRECTIONS = 56
@@ -20,21 +20,11 @@ def sky(positions: Array, normals: Array, triangles: NDArray[np.integer]) -> Arr
     """(n,) share of the sky above it that each vertex sees, 0 … 1: all of it on a convex body."""
     seen = np.zeros(len(positions))
     total = np.full(len(positions), 1e-9)
-    for direction in _directions():
+    for direction in directions(DIRECTIONS, 1.6, 0.123):  # but for the floor
         facing = np.clip(normals @ direction, 0, None)
         seen += facing * _visible(positions, triangles, direction)
         total += facing
     return _evened(seen / total, triangles)
-
-
-def _directions() -> Array:
-    """Evenly over the ball but for its floor: a spiral, turned so that nothing lies on the face's own axes."""
-    step = np.arange(DIRECTIONS) + 0.5
-    up = 1 - 1.6 * step / DIRECTIONS
-    angle = step * np.pi * (3 - np.sqrt(5)) + 0.123
-    across = np.sqrt(1 - up * up)
-    spread: Array = np.stack([across * np.cos(angle), up, across * np.sin(angle)], -1)
-    return spread
 
 
 def _visible(positions: Array, triangles: NDArray[np.integer], direction: Array) -> Array:

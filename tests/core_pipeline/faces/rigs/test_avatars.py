@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from core_pipeline.faces.rigs.open_face import open_face
+from core_pipeline.faces.open_face import open_face
 from tests.helpers.avatar import HEIGHT, MESHES, SCALE, avatar, packed, toon
 from tests.helpers.pictures import sampled, seen_colours
 from tests.helpers.rigs import NAMES, PRESETS

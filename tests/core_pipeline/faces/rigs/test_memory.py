@@ -26,7 +26,7 @@ import os, sys
 from pathlib import Path
 from core_pipeline.errors import UserError
 from core_pipeline.faces.rigs import draco
-from core_pipeline.faces.rigs.open_face import open_face
+from core_pipeline.faces.open_face import open_face
 import DracoPy
 
 for name in sys.argv[1:]:

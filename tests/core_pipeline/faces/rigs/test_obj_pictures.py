@@ -9,10 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core_pipeline.errors import UserError
+from core_pipeline.faces.open_face import open_face
 from core_pipeline.faces.rigs import obj_folder
 from core_pipeline.faces.rigs.obj_colours import SKIN
 from core_pipeline.faces.rigs.obj_folder import read_obj_folder
-from core_pipeline.faces.rigs.open_face import open_face
 from core_pipeline.faces.texture import Material
 from tests.helpers.pictures import COLOURS, FOUR, huge_png, png, seen_colours
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from core_pipeline.errors import UserError
+from core_pipeline.faces.open_face import open_face
 from core_pipeline.faces.retarget import best
 from core_pipeline.faces.rigs.glb import read_glb
-from core_pipeline.faces.rigs.open_face import open_face
 from tests.helpers.gltf import tetrahedron
 from tests.helpers.rigs import PRESETS
 

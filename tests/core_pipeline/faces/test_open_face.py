@@ -11,9 +11,9 @@ from core_pipeline.faces.face import Camera
 from core_pipeline.faces.face_folder import save
 from core_pipeline.faces.framing import frame, head_camera, turned_upright
 from core_pipeline.faces.mapping_json import mapping_path, save_mapping
+from core_pipeline.faces.open_face import open_face
 from core_pipeline.faces.retarget import OWN_NAMES
 from core_pipeline.faces.rigs import rig_cache
-from core_pipeline.faces.rigs.open_face import open_face
 from core_pipeline.faces.texture import Material, Texture
 from core_pipeline.faces.view import View
 from core_pipeline.poses import FACEFX
@@ -229,7 +229,7 @@ def cached(tmp_path):
 def test_the_second_time_gives_the_same_face_without_reading_the_rig(tmp_path, kind, monkeypatch):
     path = kind(moved(ARKIT, Z_UP, 10), tmp_path / "head.glb")
     first = opened(path, **cached(tmp_path))
-    monkeypatch.setattr("core_pipeline.faces.rigs.open_face._read", None)
+    monkeypatch.setattr("core_pipeline.faces.open_face._read", None)
     second = opened(path, **cached(tmp_path))
     for name in ("positions", "normals", "triangles", "colours", "deltas", "normal_deltas"):
         mine, theirs = getattr(second.face, name), getattr(first.face, name)
@@ -256,7 +256,7 @@ def test_pictures_are_kept_bit_for_bit(tmp_path, monkeypatch, wraps):
     path = tmp_path / "head.glb"
     path.write_bytes(gltf.glb())
     first = opened(path, **cached(tmp_path)).face
-    monkeypatch.setattr("core_pipeline.faces.rigs.open_face._read", None)
+    monkeypatch.setattr("core_pipeline.faces.open_face._read", None)
     second = opened(path, **cached(tmp_path)).face
     assert second.materials == first.materials
     assert {material.soft for material in second.materials.values()} == {True, False}
@@ -271,7 +271,7 @@ def test_pictures_are_kept_bit_for_bit(tmp_path, monkeypatch, wraps):
 def test_a_rig_without_pictures_is_kept_without(tmp_path, monkeypatch):
     path = as_glb(head(), tmp_path / "head.glb")
     opened(path, **cached(tmp_path))
-    monkeypatch.setattr("core_pipeline.faces.rigs.open_face._read", None)
+    monkeypatch.setattr("core_pipeline.faces.open_face._read", None)
     face = opened(path, **cached(tmp_path)).face
     assert (face.textures, face.materials, face.texcoords) == ((), {}, None)
 
