@@ -9,6 +9,7 @@ import math
 import weakref
 from collections.abc import Collection
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,8 +35,23 @@ _SOFTWARE = ("llvmpipe", "softpipe", "swiftshader", "swrast", "software", "gdi g
 _RIM_STEP = 0.04
 #: Alpha from which on a soft part is there where a pixel has but one sample.
 _HALF_THERE = 0.45
-#: A larger picture has hard edges: smooth ones would take half a gigabyte.
-_MOST_PIXELS = 9_000_000
+#: A picture of more samples is drawn in bands: each sample takes 28 bytes.
+_MOST_SAMPLES = 12_000_000
+#: Rows by which bands lie over one another: so far the way to the light behind is looked at, as a rule.
+_APRON = 64
+
+
+class Band(NamedTuple):
+    """Rows of a picture that are drawn in one go: `rows` from row `top` on, `finer` ² samples a pixel."""
+
+    top: int
+    rows: int
+    finer: int
+
+    def of(self, place: Place) -> Place:
+        """A place of the picture, in samples of the band; it may begin above and end below it."""
+        x, y, width, height = place
+        return self.finer * x, self.finer * (y - self.top), self.finer * width, self.finer * height
 
 
 @dataclass(frozen=True)
@@ -67,7 +83,7 @@ class FaceGL(Renderer):  # type: ignore[misc]
         self._size = (0, 0)
         self._pixels: NDArray[np.uint8] = np.empty((0, 0, 4), np.uint8)
         self._meshes: dict[Face, FaceMesh] = {}
-        self._finer = 1
+        self._band = Band(0, 1, 1)
         self._shadows: list[ShadowMap] = []  # one of each place of the picture
         self._standing: list[_Standing] = []
         self._no_vertices = GL.glGenVertexArrays(1)
@@ -76,20 +92,28 @@ class FaceGL(Renderer):  # type: ignore[misc]
         self.name: str = name
         self.software: bool = any(word in name.casefold() for word in _SOFTWARE)
 
-    def begin(self, size: tuple[int, int], smooth: bool) -> None:
-        """A new picture of (w, h) pixels; `smooth`: four samples each, where they fit into memory."""
-        width, height = (min(max(int(side), 1), self._largest) for side in size)
+    def bands(self, size: tuple[int, int], smooth: bool) -> list[Band]:
+        """How to draw a picture of (w, h) pixels: one after another, each from `begin` to `finish`.
+
+        smooth  with four samples a pixel
+        """
+        width, height = (min(max(int(side), 1), self._largest // 2) for side in size)
         if (width, height) != self._size:
             self._delete_targets()
             self._size = (width, height)
             self._pixels = np.empty((height, width, 4), np.uint8)
-        fits = 2 * max(width, height) <= self._largest and width * height <= _MOST_PIXELS
-        self._finer = 2 if smooth and fits else 1
+        finer = 2 if smooth else 1
+        rows = max(_MOST_SAMPLES // (width * finer * finer), 4 * _APRON)
+        return [Band(top, min(rows, height), finer) for top in _tops(height, rows)]
+
+    def begin(self, band: Band) -> None:
+        """A new picture, or part of one."""
+        self._band = band
         GL.glEnable(GL.GL_DEPTH_TEST)
         GL.glDepthFunc(GL.GL_LEQUAL)
         GL.glDepthMask(True)
         GL.glDisable(GL.GL_BLEND)
-        GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, self._target(self._finer).surfaces)
+        GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, self._target(band.finer).surfaces)
         GL.glClear(GL.GL_DEPTH_BUFFER_BIT)
         self._standing.clear()
 
@@ -136,10 +160,10 @@ class FaceGL(Renderer):  # type: ignore[misc]
 
     def finish(self, background: Background) -> NDArray[np.uint8]:
         """(h, w, 4) BGRA, top row first; the same array until the size changes."""
-        target = self._target(self._finer)
+        target = self._target(self._band.finer)
         GL.glDepthMask(False)
         GL.glBindVertexArray(self._no_vertices)
-        if target.shows != background:
+        if target.shows != (background, self._band.top):
             self._draw_backdrop(target, background)
         target.light()
         for standing in self._standing:
@@ -176,8 +200,8 @@ class FaceGL(Renderer):  # type: ignore[misc]
         self, mesh: FaceMesh, from_mesh: Matrix, projection: Matrix, place: Place, cut: float, inside: bool
     ) -> None:
         """Colours and normals. Inner sides, too: users' rigs have single-sided lashes and hair."""
-        GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, self._target(self._finer).surfaces)
-        GL.glViewport(*(self._finer * side for side in place))
+        GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, self._target(self._band.finer).surfaces)
+        GL.glViewport(*self._band.of(place))
         # The picture is drawn upside down, so that the read-back needs no flip: its first row is the top.
         GL.glFrontFace(GL.GL_CW)
         program: Program | None = None
@@ -193,13 +217,14 @@ class FaceGL(Renderer):  # type: ignore[misc]
                 if not batch.solid:
                     soft, cutoff = batch.material.soft, batch.material.cutoff
                     program.number("cutoff", max(cutoff, _HALF_THERE) if soft else cutoff)
-                    program.number("fade", float(soft and self._finer > 1))
+                    program.number("fade", float(soft and self._band.finer > 1))
             (GL.glEnable if batch.closed and not inside else GL.glDisable)(GL.GL_CULL_FACE)
             mesh.draw(batch)
 
     def _draw_light(self, standing: _Standing) -> None:
         """On a face's pixels alone: they are before the far plane."""
-        GL.glViewport(*(self._finer * side for side in standing.place))
+        x, y, width, height = self._band.of(standing.place)
+        GL.glViewport(x, y, width, height)
         GL.glDepthFunc(GL.GL_GREATER)
         program = self._programs.use("light", "light")
         standing.shadow.bind()
@@ -211,8 +236,8 @@ class FaceGL(Renderer):  # type: ignore[misc]
         program.vector("deeper", 2.0 * to_light[:, 2])
         program.matrix("lift", 0.5 * standing.lift * standing.to_light[:3, :3])
         program.vector("spread", (1.0 / projection[0, 0], 1.0 / projection[1, 1]))
-        x, y, width, height = (self._finer * side for side in standing.place)
-        program.vector("bounds", (x, y, x + width - 1, y + height - 1))
+        bottom = min(y + height, self._band.rows * self._band.finer) - 1
+        program.vector("bounds", (x, max(y, 0), x + width - 1, bottom))
         program.vector("depth_of", (-projection[2, 2], -projection[2, 3]))
         light, background = standing.look.light, standing.look.background
         step = _RIM_STEP * standing.seen * _unit(light.rim_from)
@@ -231,22 +256,28 @@ class FaceGL(Renderer):  # type: ignore[misc]
 
     def _draw_backdrop(self, target: Target, background: Background) -> None:
         """It is kept: no face changes it."""
+        band = self._band
         GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, target.backdrop)
-        GL.glViewport(0, 0, *target.size)
+        GL.glViewport(*band.of((0, 0, *self._size)))
         GL.glDepthFunc(GL.GL_ALWAYS)
         program = self._programs.use("backdrop", "backdrop")
         program.vector("top", background.top)
         program.vector("bottom", background.bottom)
         program.number("glow", background.glow)
-        program.number("checker", background.checker * min(target.size))
+        program.number("above", band.top * band.finer)
+        program.number("checker", background.checker * min(self._size) * band.finer)
         GL.glDrawArrays(GL.GL_TRIANGLES, 0, 3)
-        target.shows = background
+        target.shows = (background, band.top)
 
     def _target(self, finer: int) -> Target:
-        if finer not in self._targets:
-            width, height = self._size
-            self._targets[finer] = Target(finer * width, finer * height)
-        return self._targets[finer]
+        """For the present band; of one sample a pixel it may be higher."""
+        size = (finer * self._size[0], finer * self._band.rows)
+        found = self._targets.get(finer)
+        if found is None or found.size[1] < size[1] or (finer > 1 and found.size != size):
+            if found is not None:
+                found.delete()
+            self._targets[finer] = found = Target(*size)
+        return found
 
     def _delete_targets(self) -> None:
         for target in self._targets.values():
@@ -254,14 +285,24 @@ class FaceGL(Renderer):  # type: ignore[misc]
         self._targets.clear()
 
     def _read(self, target: Target) -> NDArray[np.uint8]:
-        width, height = self._size
-        if self._finer > 1:
+        band = self._band
+        if band.finer > 1:
             plain = self._target(1)
             target.shrink_into(plain)
             target = plain
         GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, target.canvas)
-        GL.glReadPixels(0, 0, width, height, GL.GL_BGRA, GL.GL_UNSIGNED_BYTE, self._pixels)
+        width, height = self._size
+        first = _APRON if band.top else 0
+        last = band.rows if band.top + band.rows == height else band.rows - _APRON
+        rows = self._pixels[band.top + first : band.top + last]
+        GL.glReadPixels(0, first, width, last - first, GL.GL_BGRA, GL.GL_UNSIGNED_BYTE, rows)
         return self._pixels
+
+
+def _tops(height: int, rows: int) -> list[int]:
+    """Where bands of `rows` begin that lie over one another by an apron's height on both sides."""
+    last = max(height - rows, 0)
+    return [*range(0, last, rows - 2 * _APRON), last]
 
 
 def _unit(direction: tuple[float, float, float]) -> NDArray[np.float64]:

@@ -103,15 +103,18 @@ class Renderer:
         self._gl.forget(but=faces)
         self._blends = {face: kept for face, kept in self._blends.items() if face in faces}
         width, height = (max(int(side), 1) for side in size)
-        self._gl.begin((width, height), smooth=full_quality or not self._gl.software)
-        for figure, place in zip(figures, places((width, height), len(figures)), strict=False):
-            face = figure.face
-            if face not in self._blends:
-                self._blends[face] = Blend(face), float(np.linalg.norm(face.positions, axis=1).max(initial=0.0))
-            blend, radius = self._blends[face]
-            vertices = blend.exact(figure.amounts) if full_quality else blend.mixed(figure.amounts)
-            self._gl.add(face, vertices, figure.view.fitted(place[2:]), radius, place, look, full_quality)
-        return self._gl.finish(look.background)
+        pixels: Pixels = np.empty((0, 0, 4), np.uint8)
+        for band in self._gl.bands((width, height), smooth=full_quality or not self._gl.software):
+            self._gl.begin(band)
+            for figure, place in zip(figures, places((width, height), len(figures)), strict=False):
+                face = figure.face
+                if face not in self._blends:
+                    self._blends[face] = Blend(face), float(np.linalg.norm(face.positions, axis=1).max(initial=0.0))
+                blend, radius = self._blends[face]
+                vertices = blend.exact(figure.amounts) if full_quality else blend.mixed(figure.amounts)
+                self._gl.add(face, vertices, figure.view.fitted(place[2:]), radius, place, look, full_quality)
+            pixels = self._gl.finish(look.background)
+        return pixels
 
 
 class FaceRenderer(Renderer):

@@ -65,10 +65,11 @@ class Target:
             GL.glBindTexture(GL.GL_TEXTURE_2D, texture)
 
     def shrink_into(self, other: Target) -> None:
-        """Copy the canvas to a smaller one: to half the size, four pixels become one."""
+        """Copy the canvas in half its size into the corner of another: four pixels become one."""
+        half = (self.size[0] // 2, self.size[1] // 2)
         GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, self.canvas)
         GL.glBindFramebuffer(GL.GL_DRAW_FRAMEBUFFER, other.canvas)
-        GL.glBlitFramebuffer(0, 0, *self.size, 0, 0, *other.size, GL.GL_COLOR_BUFFER_BIT, GL.GL_LINEAR)
+        GL.glBlitFramebuffer(0, 0, *self.size, 0, 0, *half, GL.GL_COLOR_BUFFER_BIT, GL.GL_LINEAR)
 
     def delete(self) -> None:
         """Free it."""

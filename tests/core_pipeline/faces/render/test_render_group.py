@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from core_pipeline.faces.looks import BACKGROUNDS, LIGHTS, Background, Look
+from core_pipeline.faces.render import passes
 from core_pipeline.faces.render.renderer import FaceRenderer, Figure, Renderer
 from core_pipeline.faces.view import View
 from tests.helpers.ball import ball
@@ -99,3 +100,15 @@ def test_a_checkered_ground_has_two_colours_in_squares(renderer):
     side = round(96 * BACKGROUNDS["checker"].checker)
     np.testing.assert_array_equal(picture[:-side, :-side], picture[side:, side:])
     assert (picture[:, :-side] != picture[:, side:]).any(axis=2).all()
+
+
+@pytest.mark.parametrize("full_quality", [False, True])
+@pytest.mark.parametrize("background", ["studio", "checker"])
+def test_a_picture_drawn_in_bands_is_the_same_as_in_one_go(renderer, monkeypatch, full_quality, background):
+    figures = [Figure(BALL, TALL, VIEW.zoomed(2)), Figure(BLUE, REST, VIEW)]
+    look, size = Look(BACKGROUNDS[background]), (130, 901)
+    whole = renderer.draw(figures, size, full_quality, look).copy()
+    monkeypatch.setattr(passes, "_MOST_SAMPLES", 130 * 300 * (4 if full_quality else 1))
+    for _ in range(2):
+        off = np.abs(renderer.draw(figures, size, full_quality, look).astype(int) - whole).max(axis=2)
+        assert off.max() <= 1
