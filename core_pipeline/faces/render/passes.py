@@ -1,6 +1,6 @@
 """The OpenGL half of drawing a face: the passes, and the read-back.
 
-Only `render` imports this module, and late: importing it loads OpenGL, which may be missing.
+Only `renderer` imports this module, and late: importing it loads OpenGL, which may be missing.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from ..face import Face, Floats
 from ..looks import Background, Look
 from ..view import View
 from .mesh import FaceMesh
-from .program import Program, Programs
+from .program import Programs
 from .shadow import SHADOW_OFFSET, ShadowMap, camera_to_light, shadow_reach
 from .target import DEPTHS, FACINGS, SURFACES, Target
 
@@ -204,7 +204,6 @@ class FaceGL(Renderer):  # type: ignore[misc]
         GL.glViewport(*self._band.of(place))
         # The picture is drawn upside down, so that the read-back needs no flip: its first row is the top.
         GL.glFrontFace(GL.GL_CW)
-        program: Program | None = None
         for batch in mesh.batches:
             defines = () if batch.material is None else ("PICTURED",) if batch.solid else ("PICTURED", "CUT_OUT")
             program = self._programs.use("surface", "surface", *defines)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +32,7 @@ class Program:
             log = GL.glGetProgramInfoLog(self._name)
             raise RuntimeError(f"{vertex} and {fragment} do not link: {log!r}")
         self._locations: dict[str, int] = {}
+        self._set: dict[str, object] = {}  # as the uniforms are: to set one costs more than to compare it
         for number in range(int(GL.glGetProgramiv(self._name, GL.GL_ACTIVE_UNIFORMS))):
             found, _, _ = GL.glGetActiveUniform(self._name, number)
             name = found.tobytes().decode() if hasattr(found, "tobytes") else bytes(found).decode()
@@ -43,21 +45,31 @@ class Program:
 
     def number(self, name: str, value: float) -> None:
         """Set a float."""
-        GL.glUniform1f(self._locations[name], value)
+        if self._changes(name, value):
+            GL.glUniform1f(self._locations[name], value)
 
-    def vector(self, name: str, values: Any) -> None:
+    def vector(self, name: str, values: Iterable[float]) -> None:
         """Set a vec2, vec3 or vec4."""
-        setters = {2: GL.glUniform2f, 3: GL.glUniform3f, 4: GL.glUniform4f}
-        setters[len(values)](self._locations[name], *values)
+        numbers = tuple(map(float, values))
+        if self._changes(name, numbers):
+            {2: GL.glUniform2f, 3: GL.glUniform3f, 4: GL.glUniform4f}[len(numbers)](self._locations[name], *numbers)
 
     def matrix(self, name: str, matrix: NDArray[Any]) -> None:
         """Set a mat3 or mat4 from rows."""
-        setter = GL.glUniformMatrix3fv if len(matrix) == 3 else GL.glUniformMatrix4fv
-        setter(self._locations[name], 1, GL.GL_TRUE, np.ascontiguousarray(matrix, np.float32))
+        rows = np.ascontiguousarray(matrix, np.float32)
+        if self._changes(name, rows.tobytes()):
+            setter = GL.glUniformMatrix3fv if len(rows) == 3 else GL.glUniformMatrix4fv
+            setter(self._locations[name], 1, GL.GL_TRUE, rows)
 
     def texture(self, name: str, unit: int) -> None:
         """Let a sampler read texture unit `unit`."""
-        GL.glUniform1i(self._locations[name], unit)
+        if self._changes(name, unit):
+            GL.glUniform1i(self._locations[name], unit)
+
+    def _changes(self, name: str, value: object) -> bool:
+        changed = self._set.get(name) != value
+        self._set[name] = value
+        return changed
 
     def delete(self) -> None:
         """Free it."""

@@ -1,6 +1,7 @@
 """Mixing shapes: the one product agrees with the definition, and the normals with the surface."""
 
 from dataclasses import replace
+from itertools import combinations
 
 import numpy as np
 import pytest
@@ -10,8 +11,10 @@ from hypothesis.extra import numpy as hnp
 
 from core_pipeline.faces.render.blend import Blend
 from tests.helpers.ball import ball
+from tests.helpers.rigs import head
 
 BALL = ball()
+MANY = head([f"shape {number}" for number in range(24)])
 AMOUNTS = hnp.arrays(np.float32, 2, elements=st.floats(-0.5, 1.5, width=32))
 
 
@@ -32,6 +35,23 @@ def test_no_mix_leaves_a_trace_in_the_next(mixes):
     for amounts in mixes:
         blend.exact(amounts)
         np.testing.assert_array_equal(blend.mixed(amounts), Blend(BALL).mixed(amounts))
+
+
+@given(st.lists(hnp.arrays(np.float32, 24, elements=st.sampled_from([0, 0, 0.25, 0.5, -0.3, 0.7])), max_size=5))
+def test_shapes_of_one_amount_may_be_many_and_change(mixes):
+    blend = Blend(MANY)
+    for amounts in mixes:
+        np.testing.assert_allclose(blend.mixed(amounts)[:, :3], MANY.deform(amounts), atol=2e-5)
+
+
+def test_the_sums_that_are_kept_are_few():
+    blend = Blend(MANY)
+    for first, second in combinations(range(24), 2):
+        amounts = np.zeros(24, np.float32)
+        amounts[[first, second]] = 0.5
+        np.testing.assert_allclose(blend.mixed(amounts)[:, :3], MANY.deform(amounts), atol=1e-6)
+    kept = [value for value in vars(blend).values() if isinstance(value, dict)]
+    assert all(len(value) <= 16 for value in kept)
 
 
 @given(AMOUNTS)
