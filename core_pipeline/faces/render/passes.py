@@ -30,6 +30,7 @@ Matrix = NDArray[np.float64]
 _UPSIDE_DOWN = np.diag([1.0, -1.0, 1.0, 1.0])
 #: From -1…1 to 0…1.
 _HALF = np.array([[0.5, 0, 0, 0.5], [0, 0.5, 0, 0.5], [0, 0, 0.5, 0.5], [0, 0, 0, 1]])
+_CUT = ("CUT",)
 _SOFTWARE = ("llvmpipe", "softpipe", "swiftshader", "swrast", "software", "gdi generic")
 #: A step on the way to the light behind, in halves of what is seen from home.
 _RIM_STEP = 0.04
@@ -133,7 +134,7 @@ class FaceGL(Renderer):  # type: ignore[misc]
         reach = shadow_reach(view, radius)
         key_from = _unit(look.light.key_from)
         to_light = camera_to_light(view, reach, key_from)
-        # The side the camera is on. 0 is no cut: some drivers clip whether clipping is on or not.
+        # The side the camera is on. 0 is no cut, and has shaders without one: some clip even when clipping is off.
         cut = math.copysign(1.0, from_mesh[2, 0]) if view.cutaway else 0.0
         if len(self._standing) == len(self._shadows):
             self._shadows.append(ShadowMap())
@@ -188,11 +189,12 @@ class FaceGL(Renderer):  # type: ignore[misc]
         GL.glFrontFace(GL.GL_CCW)
         GL.glCullFace(GL.GL_BACK)
         GL.glEnable(GL.GL_DEPTH_CLAMP)  # what is nearer to the light than the map reaches casts, too
-        program = self._programs.use("shadow", "shadow")
+        program = self._programs.use("shadow", "shadow", *_CUT[: bool(cut)])
         program.matrix("to_light", to_light)
         for batch in mesh.batches:
             if batch.solid:
-                program.number("cut", 0.0 if batch.whole else cut)
+                if cut:
+                    program.number("cut", 0.0 if batch.whole else cut)
                 mesh.draw(batch)
         GL.glDisable(GL.GL_DEPTH_CLAMP)
 
@@ -205,11 +207,14 @@ class FaceGL(Renderer):  # type: ignore[misc]
         # The picture is drawn upside down, so that the read-back needs no flip: its first row is the top.
         GL.glFrontFace(GL.GL_CW)
         for batch in mesh.batches:
-            defines = () if batch.material is None else ("PICTURED",) if batch.solid else ("PICTURED", "CUT_OUT")
-            program = self._programs.use("surface", "surface", *defines)
+            one_sided = batch.closed and not inside
+            pictured = () if batch.material is None else ("PICTURED",) if batch.solid else ("PICTURED", "CUT_OUT")
+            sides = () if one_sided else ("TWO_SIDED",)
+            program = self._programs.use("surface", "surface", *_CUT[: bool(cut)], *sides, *pictured)
             program.matrix("view", from_mesh)
             program.matrix("projection", projection)
-            program.number("cut", 0.0 if batch.whole else cut)
+            if cut:
+                program.number("cut", 0.0 if batch.whole else cut)
             if batch.material is not None:
                 mesh.bind_picture(batch)
                 program.texture("picture", 0)
@@ -217,7 +222,7 @@ class FaceGL(Renderer):  # type: ignore[misc]
                     soft, cutoff = batch.material.soft, batch.material.cutoff
                     program.number("cutoff", max(cutoff, _HALF_THERE) if soft else cutoff)
                     program.number("fade", float(soft and self._band.finer > 1))
-            (GL.glEnable if batch.closed and not inside else GL.glDisable)(GL.GL_CULL_FACE)
+            (GL.glEnable if one_sided else GL.glDisable)(GL.GL_CULL_FACE)
             mesh.draw(batch)
 
     def _draw_light(self, standing: _Standing) -> None:

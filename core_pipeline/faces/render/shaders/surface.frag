@@ -11,7 +11,9 @@ uniform float cutoff;        // alpha below which nothing is there
 uniform float fade;          // 1: alpha is spread over the four samples of a pixel
 #endif
 
+#ifdef CUT
 uniform float cut;           // not 0: the head is cut open
+#endif
 
 layout(location = 0) out vec4 surface;   // square root of linear RGB, which spends its 8 bits where eyes do; gloss
 layout(location = 1) out vec4 facing;    // normal, -1…1 as 0…1; 1 where light falls on it, 0 where it is flat
@@ -31,11 +33,17 @@ void main() {
     // sRGB to linear, within 0.2 %: what a hardware sRGB texture does, but cheaper in software.
     colour.rgb *= texel.rgb * (texel.rgb * (texel.rgb * 0.305306011 + 0.682171111) + 0.012522878);
 #endif
-    float side = gl_FrontFacing ? 1.0 : -1.0;
+#ifdef TWO_SIDED
+    float side = gl_FrontFacing ? 0.5 : -0.5;
+#else
+    float side = 0.5;
+#endif
     surface = vec4(sqrt(colour.rgb), colour.a);
-    facing = vec4(v_normal * (0.5 * side) + 0.5, 1.0);
+    facing = vec4(v_normal * side + 0.5, 1.0);
+#ifdef CUT
     if (cut != 0.0 && !gl_FrontFacing) {
         surface = vec4(INSIDE, 0.0);
         facing.a = 0.0;
     }
+#endif
 }

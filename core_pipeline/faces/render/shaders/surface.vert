@@ -10,13 +10,17 @@ out vec2 v_texcoord;
 
 uniform mat4 view;
 uniform mat4 projection;
+#ifdef CUT
 uniform float cut;       // the side of the middle, +1 or -1, that is hidden; 0 to hide nothing
+#endif
 
 out vec3 v_normal;
 out vec4 v_colour;
 
 void main() {
+#ifdef CUT
     gl_ClipDistance[0] = cut == 0.0 ? 1.0 : -cut * position.x;
+#endif
     v_normal = normalize(mat3(view) * normal);
     v_colour = colour;
 #ifdef PICTURED
