@@ -55,7 +55,8 @@ def test_and_little_is_found_beside_it(corners, seed):
     texture = Texture(dotted(side, side, seed, 3), ("clamp", "clamp"))
     longest = np.abs(places - np.roll(places, 1, axis=0)).max() * side
     beside = max(longest / 4, 1) + 1
-    low, high = (places * side).min(0) - beside, (places * side).max(0) + beside
+    on_picture = np.clip(places * side, 0, side - 1)  # beyond its edges there is more of the edge
+    low, high = on_picture.min(0) - beside, on_picture.max(0) + beside
     rows, columns = np.nonzero(texture.picture[..., 3])
     clipped = np.clip([low, high], 0, side - 1)
     near = (
