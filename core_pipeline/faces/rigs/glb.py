@@ -85,6 +85,8 @@ def _planned(gltf: GltfFile, scene: Scene) -> list[_Plan]:
         if "POSITION" not in attributes:
             raise gltf.fail(f"mesh “{plan.title}” has no positions; export the file again.")
         count = gltf.count(attributes["POSITION"])
+        if count > MAX_VERTICES:
+            raise gltf.fail(f"mesh “{plan.title}” has {count:,} vertices, more than {MAX_VERTICES:,}; reduce the mesh.")
         used = gltf.count(plan.primitive["indices"]) if "indices" in plan.primitive else count
         vertices += min(count, used)  # what no triangle uses is not kept
         corners += used if "indices" in plan.primitive else 0
@@ -117,15 +119,20 @@ def _without_scaffold(gltf: GltfFile, plans: list[_Plan]) -> list[_Plan]:
 
 @dataclass
 class _Patch:
-    """One primitive, in the scene's space; of its deltas only those of the vertices in `used`."""
+    """One primitive, in the scene's space, of `used` alone among its `count` vertices.
+
+    VRM avatars have one set of vertices for all primitives of a mesh. Until it is dressed, its triangles have the
+    numbers of the file.
+    """
 
     title: str
+    count: int
+    used: NDArray[np.uint32]
     positions: Floats
-    triangles: NDArray[np.uint32]
     normals: Floats
-    colours: Floats
-    used: NDArray[np.intp]
+    triangles: NDArray[np.uint32]
     deltas: dict[str, Floats] = field(default_factory=dict)
+    colours: Floats = field(default_factory=lambda: np.zeros((0, 4), np.float32))
     material: Material | None = None
     texcoords: Floats | None = None
 
@@ -222,11 +229,11 @@ def _patch(gltf: GltfFile, scene: Scene, plan: _Plan, step: Steps) -> _Patch:
     if "NORMAL" in attributes:
         normals = gltf.read(attributes["NORMAL"], "VEC3").astype(np.float32)
         normals = _unit(_move(np.linalg.pinv(place[..., :3, :3]).swapaxes(-1, -2), normals, 0))
-    patch = _Patch(title, positions, triangles, normals, np.ones((count, 4), np.float32), np.unique(triangles))
+    used = np.unique(triangles)
+    patch = _Patch(title, count, used, _only(used, positions), _only(used, normals), triangles)
     for name, target in zip(plan.names, targets, strict=True):
         if "POSITION" in target:
-            delta = _move(place, gltf.read(target["POSITION"], "VEC3").astype(np.float32), 0)
-            patch.deltas[name] = delta if len(patch.used) == count else delta[patch.used]
+            patch.deltas[name] = _only(used, _move(place, gltf.read(target["POSITION"], "VEC3").astype(np.float32), 0))
         step()
     step()
     return patch
@@ -237,24 +244,19 @@ def _dress(gltf: GltfFile, patches: list[_Patch], plans: list[_Plan], step: Step
     materials = Materials(gltf)
     # what moves first: should the pictures be too many, those of the face stay largest
     for patch, plan in sorted(zip(patches, plans, strict=True), key=lambda both: not both[0].deltas):
-        surface = materials.of(plan.primitive, plan.title, len(patch.positions), patch.triangles)
-        patch.triangles, patch.colours = patch.triangles[surface.shown], surface.colours
-        patch.material, patch.texcoords = surface.material, surface.texcoords
-        _forget_unused(patch)
+        surface = materials.of(plan.primitive, plan.title, patch.count, patch.triangles)
+        number = np.zeros(patch.count, np.uint32)
+        number[patch.used] = np.arange(len(patch.used), dtype=np.uint32)
+        patch.triangles = number[patch.triangles[surface.shown]]
+        patch.colours, patch.material = _only(patch.used, surface.colours), surface.material
+        patch.texcoords = None if surface.texcoords is None else _only(patch.used, surface.texcoords)
         step()
     return materials.album.textures()
 
 
-def _forget_unused(patch: _Patch) -> None:
-    """Keep the vertices in `used` alone: VRM avatars have one set for all primitives of a mesh."""
-    used = patch.used
-    if len(used) == len(patch.positions):
-        return
-    number = np.zeros(len(patch.positions), np.uint32)
-    number[used] = np.arange(len(used), dtype=np.uint32)
-    patch.triangles = number[patch.triangles]
-    patch.positions, patch.normals, patch.colours = patch.positions[used], patch.normals[used], patch.colours[used]
-    patch.texcoords = None if patch.texcoords is None else patch.texcoords[used]
+def _only(used: NDArray[np.uint32], values: Floats) -> Floats:
+    """The values of those vertices; themselves when they are all."""
+    return values if len(used) == len(values) else values[used]
 
 
 def _same_counts(gltf: GltfFile, title: str, count: int, attributes: Json, targets: list[Json]) -> None:

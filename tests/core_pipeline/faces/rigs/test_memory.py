@@ -86,6 +86,20 @@ def too_many_targets():
     return gltf
 
 
+def shared_vertices():
+    """Each of many primitives stands on a large set of vertices and uses three of it."""
+    gltf = tetrahedron()
+    primitive = gltf.primitive()
+    for index in (primitive["attributes"]["POSITION"], primitive["targets"][0]["POSITION"]):
+        accessor = gltf.json["accessors"][index]
+        accessor["count"] = 1_900_000
+        del accessor["bufferView"]
+    primitive["attributes"] = {"POSITION": primitive["attributes"]["POSITION"]}
+    primitive["targets"] = [{"POSITION": target["POSITION"]} for target in primitive["targets"]]
+    gltf.mesh()["primitives"] = [primitive] * 16
+    return gltf
+
+
 def sparse_bomb():
     gltf = tetrahedron()
     gltf.sparse(4, [3], np.array([[0, 1, 0]], np.float32))
@@ -195,6 +209,7 @@ FILES = {
     "huge counts.glb": huge_counts,
     "zeros up to the limits.glb": zeros_up_to_the_limits,
     "too many targets.glb": too_many_targets,
+    "shared vertices.glb": shared_vertices,
     "sparse bomb.glb": sparse_bomb,
     "bind bomb.glb": bind_bomb,
     "image bomb.glb": lambda: image_bomb(20_000, 20_000),
@@ -226,7 +241,7 @@ def results(tmp_path_factory):
         paths[-1].write_bytes(made.glb() if isinstance(made, Gltf) else made)
     paths.append(half_a_gigabyte(folder / "half a gigabyte.glb"))
     paths.append(long_obj(folder / "long obj"))
-    root = Path(__file__).resolve().parents[3]
+    root = Path(__file__).resolve().parents[4]
     done = subprocess.run(
         [sys.executable, "-c", READER, *map(str, paths)], capture_output=True, text=True, check=True, cwd=root
     )
